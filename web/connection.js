@@ -6,8 +6,8 @@ import {decodeFrame} from "./messages.js";
 const kWindow = 2;  // maximum number of unacknowledged frames
 
 export class Connection {
-  // `handlers` has onFrame(frame), onStatus(status), onError(text), onOpen() and onClose(reason). onOpen is called with the
-  // first message, since a program that has no place for the page accepts it only to say so.
+  // `handlers` has onFrame(frame), onStatus(status), onError(text), onOpen() and onClose(reason, done: all was sent). onOpen is called
+  // with the first message, since a program that has no place for the page accepts it only to say so.
   constructor(handlers) {
     this.handlers = handlers;
     this.wish = {};
@@ -15,7 +15,7 @@ export class Connection {
     this.socket = new LiveSocket(`ws://${location.host}/live`, {
       onOpen: () => this.sendWish(),
       onMessage: (data) => this.hear(data),
-      onClose: (reason) => { this.heard = false; handlers.onClose(reason); },
+      onClose: (reason, done) => { this.heard = false; handlers.onClose(reason, done); },
     });
   }
 

@@ -1,11 +1,12 @@
 // A WebSocket to the program that connects again by itself. The program says something twice a second, so that silence
 // means that it, its machine or the network is gone, even where the connection does not end.
 const kRetryMs = 1000;
+const kDone = 1000;  // code of a connection that the server ends because all is sent
 const kSilentMs = 10000;  // the longest silence, and the longest time until a connection is established
 
 export class LiveSocket {
-  // `handlers` has onOpen(), onMessage(text or ArrayBuffer) and onClose(reason). The reason is a sentence, or "" if there is
-  // no server, or none that says why.
+  // `handlers` has onOpen(), onMessage(text or ArrayBuffer) and onClose(reason, done). The reason is a sentence, or "" if there
+  // is no server, or none that says why. `done`: the server has nothing more to send, so that no new connection is tried.
   constructor(url, handlers) {
     this.url = url;
     this.handlers = handlers;
@@ -17,7 +18,7 @@ export class LiveSocket {
     this.socket.binaryType = "arraybuffer";
     this.socket.onopen = () => this.handlers.onOpen();
     this.socket.onmessage = ({data}) => { this.wait(); this.handlers.onMessage(data); };
-    this.socket.onclose = ({reason}) => this.lose(reason);
+    this.socket.onclose = ({code, reason}) => this.lose(reason, code === kDone);
     this.socket.onerror = () => {};  // onclose follows
     this.wait();
   }
@@ -28,10 +29,10 @@ export class LiveSocket {
     this.timer = setTimeout(() => this.lose(`Nothing has come for ${kSilentMs / 1000} s.`), kSilentMs);
   }
 
-  lose(reason) {
+  lose(reason, done = false) {
     this.close();
-    this.timer = setTimeout(() => this.open(), kRetryMs);
-    this.handlers.onClose(reason);
+    if (!done) this.timer = setTimeout(() => this.open(), kRetryMs);
+    this.handlers.onClose(reason, done);
   }
 
   // Sends an object as JSON if there is a connection.

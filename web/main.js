@@ -11,11 +11,15 @@ import {Timeline} from "./timeline.js";
 const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
 const kSlowFrameMs = 3000;  // time without a frame after which the page reports it
+const kHintMs = 10000;      // how long the answer to a button is shown
+const kNoContacts = "Nothing tells what the hand touches, because contacts are off in the tracker. Start it with " +
+  "contact.enabled: true in its configuration (--config FILE), or with a known object (--object FILE).";
 
 const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // skins that arrived before the 3D view was ready
-let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false, closed = "";
+let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false, closed = "", ended = false;
+let hint = "", hintUntil = 0;  // the answer to a button, and until when it is shown
 let decoding = Promise.resolve();  // chain of promises that decodes images one after the other
 
 // Starts the 3D view. If three.js is missing or the browser lacks WebGL, the rest of the page works without it.
@@ -36,14 +40,16 @@ async function startScene() {
 
 const connection = new Connection({
   onOpen() { open = true; showConnection("good", "connected"); },
-  onClose(reason) {
+  onClose(reason, done) {
     open = false;
     closed = reason;
-    latest = null;
+    ended = done;
     unacknowledged = 0;
+    recorder.show(null);
+    if (ended) return showConnection("quiet", "ended");  // the last frame stays
+    latest = null;
     showConnection("lost", "no connection");
     showHands([]);
-    recorder.show(null);
   },
   onError(text) { recorder.say(text, "lost"); },
   onStatus(message) {
@@ -87,8 +93,9 @@ function loop(now) {
   if (now - (loop.slowAt || 0) > 100) {
     loop.slowAt = now;
     plots.draw(theme());
-    if (shown && open) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
+    if (shown && (open || ended)) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
     meter.show(status && status.live, performance.now());
+    showContacts();
     notice(problem());
   }
   requestAnimationFrame(loop);
@@ -103,8 +110,9 @@ function showPicture(frame) {
 // The most important problem, as a sentence for the user; "": there is none.
 function problem() {
   const scan = status && status.scan ? status.scan.phase : "";
-  if (!open && scan === "done") return "The calibration is done and the program has ended. The result stays here until you leave the page.";
+  if (ended) return `${closed} The page keeps what came last until you leave it. To see more, start the command again, and then load this page anew.`;
   if (!open) return `${closed || "No connection to Barehand. Is it still running?"} The page connects again by itself.`;
+  if (performance.now() < hintUntil) return hint;
   if (status && status.trouble) return status.trouble;
   if (shown && shown.damage.length > 0) return `The program sends messages that this page does not know. Load the page anew. (${shown.damage[0]})`;
   if (sceneProblem) return sceneProblem;
@@ -115,6 +123,17 @@ function problem() {
   if (status && status.log) return "No hand in this frame of the log.";
   const lost = shown.states.some((s) => s.status === 3);
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
+}
+
+// Whether the tracker, or the log, says what the hands touch.
+function hasContacts() { return shown !== null && shown.contacts.length > 0; }
+function showContacts() {
+  document.querySelector("[data-toggle=touches]").setAttribute("aria-pressed", String(state.touches && hasContacts()));
+}
+function toggleContacts() {
+  if (hasContacts()) return toggle("touches");
+  hint = kNoContacts;
+  hintUntil = performance.now() + kHintMs;
 }
 
 // Shows the room if the program knows the camera's pose in it.
@@ -139,6 +158,7 @@ function applyState() {
     button.setAttribute("aria-pressed", String(value(button.dataset[name]))));
   press("[data-view]", "view", (view) => view === state.view);
   press("[data-toggle]", "toggle", (name) => state[name]);
+  showContacts();
   press("[data-cloud]", "cloud", (kind) => kind === state.cloud);
   press("[data-picture]", "picture", (kind) => kind === state.picture);
   press("[data-plot]", "plot", (kind) => kind === state.plot);
@@ -170,7 +190,7 @@ function onKey(event) {
   if (event.key === " " && event.target.tagName === "BUTTON") return;  // the browser presses the focused button
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
-    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: () => toggle("touches"), r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
+    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: toggleContacts, r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
     p: () => set({picture: next(kPictures, state.picture)}),
     h: () => { plots.side = 1 - plots.side; },
     s: saveScreenshot, v: () => recorder.press(), t: () => setTheme(theme() === "dark" ? "light" : "dark"),
@@ -187,6 +207,7 @@ function onKey(event) {
 
 document.querySelectorAll("[data-view]").forEach((b) => { b.onclick = () => set({view: b.dataset.view}); });
 document.querySelectorAll("[data-toggle]").forEach((b) => { b.onclick = () => toggle(b.dataset.toggle); });
+document.querySelector("[data-toggle=touches]").onclick = toggleContacts;
 document.querySelectorAll("[data-cloud]").forEach((b) => { b.onclick = () => set({cloud: b.dataset.cloud}); });
 document.querySelectorAll("[data-picture]").forEach((b) => { b.onclick = () => set({picture: b.dataset.picture}); });
 document.querySelectorAll("[data-plot]").forEach((b) => { b.onclick = () => set({plot: b.dataset.plot}); });

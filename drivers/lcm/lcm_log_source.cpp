@@ -2,6 +2,7 @@
 #include "drivers/lcm/lcm_log_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -140,6 +141,20 @@ std::int64_t LcmLogSource::damaged_bytes() const {
   std::int64_t bytes = 0;
   for (const LcmLogReader& file : files_) bytes += file.damaged_bytes();
   return bytes;
+}
+
+double LcmLogSource::fps() const {
+  // Collect the times between two frames. Frames of several channels may have the same time.
+  std::vector<std::int64_t> steps_us;
+  for (std::size_t i = 1; i < frames_.size(); ++i)
+    if (const std::int64_t step_us = frames_[i].entry.utime - frames_[i - 1].entry.utime; step_us > 0)
+      steps_us.push_back(step_us);
+  if (steps_us.empty()) return 0;
+
+  // The median is not affected by pauses and missing frames.
+  const auto middle = steps_us.begin() + static_cast<std::ptrdiff_t>(steps_us.size() / 2);
+  std::ranges::nth_element(steps_us, middle);
+  return std::round(1e8 / static_cast<double>(*middle)) / 100;
 }
 
 SourceEvent LcmLogSource::next(std::chrono::milliseconds) {

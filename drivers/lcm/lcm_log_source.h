@@ -40,6 +40,8 @@ class LcmLogSource : public FrameSource {
 
   /// Number of events that `next` will still deliver, for showing progress.
   std::int64_t remaining() const { return position_.remaining(); }
+  /// Rate of the frames by the median of the times between them, rounded to 0.01 Hz; 0: not known.
+  double fps() const;
   /// Number of bytes that belong to no complete event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
   /// The reason for each log that was left out: it cannot be read, holds nothing, or is still being written.

@@ -153,7 +153,9 @@ Result<void> McapSource::choose() {
       chosen.push_back(topic);
   }
 
-  // Report it if no topic matches.
+  // Report it if nothing is there, or if no topic matches.
+  if (streams_.empty())
+    return fail("holds no message that can be read", path_, "it is empty, damaged or cut short before its first chunk");
   if (chosen.empty() && !options_.channel.empty())
     return fail("no topic with depth images matches " + in_quotes(options_.channel) + "; its topics are " + topics(),
                 path_);

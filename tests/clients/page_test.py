@@ -291,6 +291,12 @@ class Scripted(unittest.TestCase):
         with self.assertRaisesRegex(OSError, 'does not agree on the subprotocol "foxglove'):
             WebSocket("localhost", port, "/", LONG, "foxglove.websocket.v1")
 
+    def test_the_end_of_a_recording_ends_the_iteration(self):
+        farewell = self.frame(struct.pack(">H", 1000) + b"The recording has ended.", 0x88)
+        live = self.hands(self.serve(self.frame(self.chunks(messages_of(1))), self.frame(self.chunks(messages_of(2))), farewell))
+        self.assertEqual([hands.frame_number for hands in live], [1, 2])
+        self.assertEqual(list(self.hands(self.serve(farewell))), [])
+
     def test_the_server_says_why_it_closes(self):
         live = self.hands(self.serve(self.frame(struct.pack(">H", 1013) + b"32 clients are connected", 0x88)))
         live._receiver.timeout = 0.3

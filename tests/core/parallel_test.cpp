@@ -64,13 +64,18 @@ TEST(Workers, DoAsideBeforeTheyReturnWhereNothingIsLive) {
     Workers workers(threads);
     std::thread::id where;
     int cores = 0;
+    bool known = false;
+    EXPECT_FALSE(workers.does_long_work());
     auto result = workers.run_in_background([&](Workers& w) {
+      known = workers.does_long_work();
       where = std::this_thread::get_id();
       cores = w.threads();
       return 7;
     });
 
     // The task ran on this thread, with all cores, and is finished.
+    EXPECT_TRUE(known);
+    EXPECT_FALSE(workers.does_long_work());
     EXPECT_EQ(where, std::this_thread::get_id());
     EXPECT_EQ(cores, threads);
     ASSERT_EQ(result.wait_for(std::chrono::seconds(0)), std::future_status::ready);
@@ -84,6 +89,7 @@ TEST(Workers, DoAsideMeanwhileAndGiveWayWhereFramesComeByThemselves) {
   std::promise<void> returned;
   auto result = workers.run_in_background([&](Workers& alone) {
     returned.get_future().wait();  // would never end if run_in_background() waited for it
+    EXPECT_FALSE(workers.does_long_work()) << "nobody waits for it";
     EXPECT_EQ(alone.threads(), 1);
     return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
   });

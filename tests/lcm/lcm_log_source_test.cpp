@@ -77,6 +77,13 @@ TEST_F(LcmLog, ReplaysFramesUnchanged) {
   }
 }
 
+TEST_F(LcmLog, TheRateIsThatOfTheTimes) {
+  append_frames(1);
+  EXPECT_EQ(LcmLogSource::open(path_).value()->fps(), 0) << "it is not known";
+  for (const int number : {101, 102, 150}) append("RGBD_FRAME", frame_bytes(number));
+  EXPECT_EQ(LcmLogSource::open(path_).value()->fps(), 30) << "the pause does not count";
+}
+
 TEST_F(LcmLog, StartAndStepChooseFrames) {
   append_frames(6);
   EXPECT_EQ(play(), "100 101 102 103 104 105 end");

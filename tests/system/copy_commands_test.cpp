@@ -57,6 +57,9 @@ TEST_F(CopyCommands, AFolderNotesTheRateThatIsKnown) {
   EXPECT_EQ(FolderSource::open(folder_ / "a").value()->recording().fps, 20);
   ASSERT_EQ(barehand({"convert", folder_ / "a", folder_ / "b", "--step", "2"}).exit_code, 0);
   EXPECT_EQ(FolderSource::open(folder_ / "b").value()->recording().fps, 10);
+  ASSERT_EQ(barehand({"convert", folder_ / "a", folder_ / "a.lcmlog"}).exit_code, 0);
+  ASSERT_EQ(barehand({"convert", folder_ / "a.lcmlog", folder_ / "d"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "d").value()->recording().fps, 20) << "by the times in the log";
   ASSERT_EQ(barehand({"convert", recording(), folder_ / "c"}).exit_code, 0);
   EXPECT_EQ(FolderSource::open(folder_ / "c").value()->recording().fps, 0) << "it is not known";
 }

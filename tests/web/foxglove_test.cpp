@@ -134,22 +134,56 @@ TEST_P(Foxglove, NothingComesUnaskedOrAfterTheEndOfASubscription) {
 
 TEST_P(Foxglove, WhatIsNotUnderstoodIsAnsweredAndTheViewerStays) {
   const auto client = viewer();
-  const std::string strange[] = {"nonsense",
-                                 "[]",
-                                 R"({"op": 3})",
-                                 R"({"op": "advertise", "channels": []})",
-                                 R"({"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 2}]})",
-                                 R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 99999999999}]})",
-                                 R"({"op": "subscribe", "subscriptions": [7]})",
-                                 "{\"op\": \"\xff\"}"};
-  for (const std::string& text : strange) {
-    client->send(text);
-    EXPECT_EQ(text_of(*client, "status")["level"], 1) << text;
+  const std::pair<std::string, const char*> strange[] = {
+      {"nonsense", "not valid JSON"},
+      {R"({"op": "subscribe", )", "not valid JSON"},
+      {"[]", "no JSON object"},
+      {R"({"op": 3})", "\"op\""},
+      {R"({"op": "advertise", "channels": []})", "\"advertise\" is not offered"},
+      {R"({"op": "subscribe"})", "\"subscriptions\""},
+      {R"({"op": "unsubscribe"})", "\"subscriptionIds\""},
+      {R"({"op": "subscribe", "subscriptions": [{"channelId": 2}]})", "\"id\""},
+      {R"({"op": "subscribe", "subscriptions": [{"id": 1}]})", "\"channelId\""},
+      {R"({"op": "subscribe", "subscriptions": [{"id": -1, "channelId": 2}]})", "\"id\""},
+      {R"({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 99999999999}]})", "\"channelId\""},
+      {R"({"op": "subscribe", "subscriptions": [7]})", "\"id\""},
+      {R"({"op": "unsubscribe", "subscriptionIds": ["7"]})", "\"subscriptionIds\""},
+      {R"({"op": "unsubscribe", "subscriptionIds": [7]})", "Subscription 7 does not exist"},
+      {"{\"op\": \"\xff\"}", "not valid JSON"}};
+  for (const auto& [text, why] : strange) client->send(text);
+  for (const auto& [text, why] : strange) {  // each has an answer, in their order
+    const Json status = text_of(*client, "status");
+    EXPECT_EQ(status["level"], 2) << text;
+    EXPECT_THAT(status["message"], HasSubstr(why)) << text;
   }
-  for (int id = 0; id < 300; ++id) subscribe(*client, id, 1);
-  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("too many"));
   server_->show(frame(1));
   EXPECT_FALSE(text_of(*client, "advertise").empty());
+}
+
+TEST_P(Foxglove, ASubscriptionThatIsNotPossibleIsAnswered) {
+  const auto client = viewer();
+  subscribe(*client, 1, 1);
+  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("channel 1, which does not exist"))
+      << "before it is told";
+  server_->show(frame(1));
+  const Json advertised = text_of(*client, "advertise");
+  const int joints = channel(advertised, kJoints), beyond = static_cast<int>(advertised["channels"].size()) + 1;
+
+  // One message may hold possible and impossible ones.
+  client->send(R"({"op": "subscribe", "subscriptions": [{"id": 4, "channelId": 0}, {"id": 5, "channelId": )" +
+               std::to_string(joints) + R"(}, {"id": 6, "channelId": )" + std::to_string(beyond) + "}]}");
+  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("Subscription 4 asks for channel 0"));
+  EXPECT_THAT(text_of(*client, "status")["message"],
+              HasSubstr("Subscription 6 asks for channel " + std::to_string(beyond)));
+  const std::string message = client->binary().value_or("");
+  ASSERT_GT(message.size(), 13u);
+  EXPECT_EQ(message[1], 5);
+
+  // An id twice, and too many of them.
+  subscribe(*client, 5, joints);
+  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("Subscription 5 exists already"));
+  for (int id = 100; id < 356; ++id) subscribe(*client, id, joints);
+  EXPECT_THAT(text_of(*client, "status")["message"], HasSubstr("too many"));
 }
 
 TEST_P(Foxglove, AViewerThatDoesNotReadHoldsUpNobody) {
@@ -206,7 +240,19 @@ TEST_P(FoxgloveServer, TheHandIsServedAsARobotWithItsLengths) {
   const std::string larger = test::answer_of(port(), "/right_hand.urdf");
   EXPECT_EQ(test::status_of(larger), 200);
   EXPECT_NE(larger, answer);
-  EXPECT_EQ(test::status_of(test::answer_of(port(), "/left_hand.urdf")), 404);
+  // A hand that is not tracked is answered in words.
+  const std::string left = test::answer_of(port(), "/left_hand.urdf", "Host: localhost:8765\r\n");
+  EXPECT_EQ(test::status_of(left), 404);
+  EXPECT_THAT(left, HasSubstr("Content-Type: text/plain"));
+  EXPECT_THAT(left, HasSubstr("The left hand is not tracked. Only the right hand is: "
+                              "http://localhost:8765/right_hand.urdf"));
+}
+
+TEST_P(FoxgloveServer, SaysThatNoHandIsKnown) {
+  const std::string answer = test::answer_of(port(), "/right_hand.urdf");
+  EXPECT_EQ(test::status_of(answer), 404);
+  EXPECT_THAT(answer, HasSubstr("The right hand is not tracked. No hand is known yet"));
+  EXPECT_THAT(test::answer_of(port(), "/hand.urdf"), HasSubstr("There is no such file."));
 }
 
 }  // namespace

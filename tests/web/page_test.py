@@ -181,12 +181,18 @@ class Live(Page):
         self.press("c", pressed("cloud", "scene"))
         for key, expected in [("2", pressed("view", "orbit")), ("3", pressed("view", "camera")),
                               ("1", pressed("view", "follow")), ("e", pressed("toggle", "ellipsoids")),
-                              ("k", "!(" + pressed("toggle", "touches") + ")"),
                               ("r", pressed("toggle", "raw")), ("p", pressed("picture", "depth")),
                               ("?", "document.getElementById('shortcuts').open"),
                               ("Escape", "!document.getElementById('shortcuts').open")]:
             self.press(key, expected)
         self.until(lambda: self.shares()[1] < 0.8 * ground, "the whole scene covers more of the view")
+
+    def test_the_button_for_contacts_is_not_pressed_while_they_are_off(self):
+        self.open_with_hand(self.program)
+        contacts = pressed("toggle", "touches")
+        self.assertFalse(self.browser.value(contacts))
+        self.press("k", f"!{hidden('notice')} && {text('notice')}.includes('contact.enabled: true')")
+        self.assertFalse(self.browser.value(contacts))
 
     def test_a_frozen_page_stands_still(self):
         self.open_with_hand(self.program)
@@ -234,6 +240,28 @@ class Trouble(Page):
         self.browser.problems.clear()
 
 
+    def test_a_scan_that_holds_up_a_recording_is_named(self):
+        program = self.track(f"sim:grasp_ball,{SMALL}")
+        self.browser.open(program.url)
+        self.wait_for(f"{text('notice')}.includes('hand is being scanned from the frames so far')")
+        self.assertEqual(program.end(signal.SIGINT), 130)
+        self.wait_for(f"{text('notice')}.includes('Barehand was stopped before the end of the simulation.')")
+        self.wait_for(f"{text('connection')} === 'ended' && {text('hands')}.includes('segments seen')")
+
+    def test_the_end_of_a_recording_is_said_and_the_last_picture_stays(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as config:
+            config.write("tracker:\n  shape_fit:\n    scans: 0\n")
+            config.flush()
+            program = self.track(f"sim:grasp_ball,{SMALL},frames=200", "--config", config.name)
+            self.browser.open(program.url)
+            self.wait_for(f"{text('notice')}.startsWith('The simulation has ended; 200 frames were tracked. The page')")
+            self.assertEqual(program.process.wait(LONG), 0)
+        self.wait_for_hand()
+        self.assertIn("segments seen", self.browser.value(text("hands")))
+
+        # The page does not try to connect again, which the console would show within a second.
+        self.browser.value("new Promise((done) => setTimeout(done, 1500))")
+
     def test_a_program_without_a_place_for_the_page_says_so(self):
         program = self.track(HAND)
         others = [socket.create_connection(("localhost", int(program.port))) for _ in range(32)]
@@ -255,6 +283,18 @@ class Trouble(Page):
         program.process.send_signal(signal.SIGCONT)
         self.wait_for(f"{text('connection')} === 'connected' && {text('hands')}.includes('segments seen')")
         self.browser.problems[:] = [problem for problem in self.browser.problems if "WebSocket" not in problem]
+
+
+class Contacts(Page):
+    def test_the_button_shows_and_hides_them(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        config = pathlib.Path(folder.name, "contacts.yaml")
+        config.write_text("contact:\n  enabled: true\n")
+        self.open_with_hand(self.track(HAND, "--config", str(config)))
+        self.wait_for(pressed("toggle", "touches"))
+        self.press("k", "!(" + pressed("toggle", "touches") + ")")
+        self.press("k", pressed("toggle", "touches"))
 
 
 class Log(Page):
@@ -323,7 +363,6 @@ class Calibration(Page):
             self.wait_for(f"{text('scan_state')} === 'done' && {text('notice')}.includes('The calibration is done')")
             self.assertEqual(self.browser.value("document.querySelectorAll('#scan tr').length"), 17)
             self.assertTrue(pathlib.Path(folder, "hand.json").exists())
-        self.browser.problems.clear()  # the page tries to connect again
 
 
 if __name__ == "__main__":

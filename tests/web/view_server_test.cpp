@@ -167,6 +167,44 @@ TEST_F(ViewServerTest, ALastWordReachesThoseWhoReadBeforeTheEnd) {
   EXPECT_EQ(nlohmann::json::parse(client.text().value())["source"], "the last");
 }
 
+TEST_F(ViewServerTest, TellsItsClientsWhyItEnds) {
+  SocketClient page(port()), stranger(port(), "/", "foxglove.sdk.v1");
+  page.send(R"({"type": "want", "window": 1})");
+  wait_until_heard(page);
+  ASSERT_TRUE(stranger.text());
+  show(1);
+  EXPECT_EQ(next_number(page), 1);
+  show(2);  // waits, because the first one is not acknowledged
+  server_->show_status(R"({"type": "status", "source": "the last"})");
+  server_->set_farewell({Farewell::kDone, "All is shown."});
+  server_.reset();
+
+  // The last frame and status arrive before.
+  EXPECT_EQ(next_number(page), 2);
+  EXPECT_EQ(nlohmann::json::parse(page.text().value())["source"], "the last");
+  for (SocketClient* client : {&page, &stranger}) {
+    EXPECT_TRUE(client->is_let_go());
+    EXPECT_EQ(client->farewell(), std::pair(1000, std::string("All is shown.")));
+  }
+}
+
+TEST_F(ViewServerTest, MayComeBackUnlessItSaysOtherwise) {
+  SocketClient client(port());
+  wait_until_heard(client);
+  server_.reset();
+  EXPECT_TRUE(client.is_let_go());
+  EXPECT_EQ(client.farewell(), std::pair(1001, std::string("Barehand was stopped.")));
+}
+
+TEST_F(ViewServerTest, AnswersEveryMessageThatIsWrong) {
+  SocketClient client(port());
+  for (const char* text : {"{", R"({"type": 7})", R"({"type": "want", "rate": "fast"})"}) client.send(text);
+  for (const char* expected : {"is not valid JSON at line 1, column 2", "\"type\" is 7", "\"rate\" is \"fast\""}) {
+    const auto answer = nlohmann::json::parse(client.text().value());
+    EXPECT_NE(answer["text"].get<std::string>().find(expected), std::string::npos) << answer;
+  }
+}
+
 TEST_F(ViewServerTest, HandsCommandsOn) {
   SocketClient client(port());
   client.send(R"({"type": "seek", "value": 12})");

@@ -161,24 +161,70 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
   EXPECT_EQ(chunks[2].payload, "\x0aHAND_STATE" + std::string(state.begin(), state.end()));
 }
 
-TEST(ViewSink, SaysThatNoFramesCome) {
+PipelineHealth health(std::int64_t captured, std::int64_t published, std::int64_t failed) {
+  PipelineHealth health;
+  health.captured = captured;
+  health.published = published;
+  health.failed = failed;
+  return health;
+}
+
+/// The page's status when nothing was tracked for 5 s.
+nlohmann::json silent_status(ViewSink::Input input) {
   SystemClock clock;
   ManualClock time(1'000'000);
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
+  EXPECT_TRUE(server);
+  ViewSink sink({}, **server, std::move(input), time);
+  const std::string& url = (*server)->url();
+  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send("?");
+  EXPECT_TRUE(client.text());
+  time.advance(5'000'000);
+  EXPECT_TRUE(sink.idle());
+  return nlohmann::json::parse(client.text().value());
+}
+
+TEST(ViewSink, SaysThatNoFramesCome) {
+  ViewSink::Input input{"test", true, [] { return PipelineHealth{}; }};
+  input.if_silent = "Is it plugged in?";
+  const auto status = silent_status(std::move(input));
+  EXPECT_EQ(status["type"], "status");
+  EXPECT_EQ(status["trouble"], "No frame has come yet, for 5 s. Is it plugged in?");
+  EXPECT_EQ(status["record"]["folder"], "") << "nothing can be recorded";
+  EXPECT_EQ(status["health"]["queues"].back()["name"], "view");
+  EXPECT_TRUE(status["health"]["latency"]["mean"].is_number());
+}
+
+TEST(ViewSink, SaysThatAFrameIsBeingTracked) {
+  ViewSink::Input input{"test", false, [] { return health(3, 1, 1); }};
+  input.if_silent = "Is it plugged in?";
+  input.held_up_by = [] { return ""; };
+  EXPECT_EQ(silent_status(std::move(input))["trouble"],
+            "Tracking the first frame has taken 5 s so far. Is the processor busy with other work?");
+}
+
+TEST(ViewSink, SaysWhatHoldsUpTheTracker) {
+  ViewSink::Input input{"test", false, [] { return health(3, 1, 0); }};
+  input.held_up_by = [] { return "The hand is being scanned."; };
+  EXPECT_EQ(silent_status(std::move(input))["trouble"], "The hand is being scanned. So far it has taken 5 s.");
+}
+
+TEST(ViewSink, SaysAtTheEndHowManyFramesWereTracked) {
+  SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server);
-  ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }}, time);
+  ManualClock time(1'000'000);
+  ViewSink sink({}, **server, {"test", false, [] { return health(7, 7, 0); }}, time);
   const std::string& url = (*server)->url();
   SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
   client.send("?");
   ASSERT_TRUE(client.text());
   time.advance(5'000'000);
-  ASSERT_TRUE(sink.idle());
+  ASSERT_TRUE(sink.finish());
   const auto status = nlohmann::json::parse(client.text().value());
-  EXPECT_EQ(status["type"], "status");
-  EXPECT_NE(status["trouble"].get<std::string>().find("5 s"), std::string::npos);
-  EXPECT_EQ(status["record"]["folder"], "") << "nothing can be recorded";
-  EXPECT_EQ(status["health"]["queues"].back()["name"], "view");
-  EXPECT_TRUE(status["health"]["latency"]["mean"].is_number());
+  EXPECT_EQ(status["health"]["published"], 7);
+  EXPECT_EQ(status["trouble"], "") << "no more frames are expected";
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace barehand::test {
@@ -97,6 +98,9 @@ class SocketClient {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, kPatience, [&] { return closed_; });
   }
+  /// The code and the reason with which the server asked to close the connection; code 0: it did not. Call it after
+  /// is_let_go().
+  std::pair<int, std::string> farewell() const { return farewell_; }
 
  private:
   static constexpr std::chrono::seconds kPatience{20};
@@ -114,6 +118,9 @@ class SocketClient {
     const std::lock_guard lock(client.mutex_);
     if ((bits & 0xf) == MG_WEBSOCKET_OPCODE_TEXT) client.texts_.emplace_back(data, size);
     if ((bits & 0xf) == MG_WEBSOCKET_OPCODE_BINARY) client.binaries_.emplace_back(data, size);
+    if ((bits & 0xf) == MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE && size >= 2)
+      client.farewell_ = {static_cast<unsigned char>(data[0]) << 8 | static_cast<unsigned char>(data[1]),
+                          std::string(data + 2, size - 2)};
     client.changed_.notify_all();
     return 1;
   }
@@ -129,6 +136,7 @@ class SocketClient {
   std::condition_variable changed_;
   std::deque<std::string> texts_, binaries_;
   bool closed_ = false;
+  std::pair<int, std::string> farewell_;
 };
 
 /// One part of a binary message.

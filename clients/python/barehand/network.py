@@ -40,6 +40,7 @@ def parse_url(url=None):
 class Network:
     """Sends and receives messages as liblcm does. Not thread-safe."""
 
+    ended = False  # a network never ends
     #: What to do if nothing comes.
     remedy = "start `barehand track` with the same LCM URL and channel prefix; `barehand listen` shows what it sends"
 

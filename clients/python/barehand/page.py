@@ -6,12 +6,13 @@ from collections import deque
 from urllib.parse import urlsplit
 
 from .error import Error
-from .websocket import BINARY, WebSocket
+from .websocket import BINARY, Closed, WebSocket
 
 DEFAULT_PORT = 8765
 END_OF_FRAME = (None, b"")  # follows the messages of each frame
 _PATIENCE = 5.0             # seconds in which a server must have answered when it is connected to
 _RETRY = 1.0                # seconds between attempts to connect again
+_DONE = 1000                # code with which a server closes the connection when it has sent all
 _CHUNK = struct.Struct("<cBxxI")
 
 
@@ -32,7 +33,7 @@ def parse_url(url):
 
 class Page:
     """Receives the messages of the hands from a live page. The first connection must succeed. If it ends later, another
-    one is tried every second. Not thread-safe."""
+    one is tried every second, unless the page says that it has sent all: then `ended` is True. Not thread-safe."""
 
     def __init__(self, url, counts, newest=False, timeout=None):
         """Connects within `timeout` [s], 5 s at most. `newest`: the server sends a frame only when it is asked for one, and
@@ -42,6 +43,7 @@ class Page:
         self.url = url
         self._counts, self._newest = counts, newest
         self._messages = deque()
+        self.ended = False
         self._trouble = self._reason = ""  # what the page says; why there is no connection
         self._retry_at = 0.0
         self._connect(timeout)
@@ -58,9 +60,12 @@ class Page:
 
     def receive(self, timeout=None):
         """Waits for the next message and returns (channel, data), both bytes, or END_OF_FRAME; None if none arrives
-        within `timeout` [s], connected or not. `timeout=0` does not wait, None waits without limit."""
+        within `timeout` [s], connected or not, or if none will come any more (`ended`). `timeout=0` does not wait, None
+        waits without limit."""
         end = None if timeout is None else time.monotonic() + timeout
         while not self._messages:
+            if self.ended:
+                return None
             left = None if end is None else max(0, end - time.monotonic())
             if not self._socket and not self._wait_for_connection(left):
                 return None
@@ -69,6 +74,7 @@ class Page:
                 message = self._socket.receive(None if end is None else max(0, end - time.monotonic()))
             except OSError as error:
                 self._drop(error)
+                self.ended = isinstance(error, Closed) and error.code == _DONE
                 continue
             if not message:
                 return None

@@ -46,6 +46,8 @@ class Receiver:
         while True:
             begin = time.monotonic()
             message = self.network.receive(_SILENCE if self.timeout is None else min(self.timeout, _SILENCE))
+            if message is None and self.network.ended:
+                return
             silence += time.monotonic() - begin
             if message and message[0] in self.wanted:
                 silence = 0.0

@@ -22,7 +22,7 @@ def hands(source=None, prefix="", timeout=None, newest=False):
     default network.
     prefix: the channel prefix of the tracker (`run.channel_prefix`); a live page has none.
     timeout: for a network or a page: seconds without a hand state after which Error is raised; None waits for ever, with
-    one warning. A page that ends and comes back is connected to again.
+    one warning. A page that ends and comes back is connected to again; one whose recording is over ends the iteration.
     newest: for a network or a page: skips frames if newer ones have arrived, for consumers that are slower than the
     tracker.
 
@@ -70,11 +70,11 @@ class HandStream:
             self._receiver.warn_of_trouble()
             yield from done
 
-        # Only a log ends.
+        # A log ends, and so does the page of a recording.
         last = self._frames.rest()
         self._receiver.warn_of_trouble()
         yield from last
-        if not self.counts.messages:
+        if not self.counts.messages and not self._receiver.is_page:
             raise Error(f"the log holds no hand states on {self._receiver.prefix}HAND_STATE", self._source,
                         "barehand track --source log:FILE --states-log STATES makes them of a recording")
 

@@ -16,6 +16,14 @@ _LARGEST_ANSWER = 1 << 16    # of the server to the handshake, bytes
 _KEEPALIVE = (("TCP_KEEPIDLE", 5), ("TCP_KEEPINTVL", 2), ("TCP_KEEPCNT", 3), ("TCP_USER_TIMEOUT", 11_000))
 
 
+class Closed(ConnectionError):
+    """The server has closed the connection. `code` is that of RFC 6455; 0: the server gave none."""
+
+    def __init__(self, code, reason):
+        super().__init__("the server closed the connection" + (f": {reason}" if reason else ""))
+        self.code = code
+
+
 def _connected(host, port, end, receive_buffer):
     """A socket that is connected to one of the addresses of the host until the time `end`."""
     found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)
@@ -129,8 +137,7 @@ class WebSocket:
         if opcode == PING:
             self.send(payload, PONG)
         elif opcode == CLOSE:  # after a code of 2 bytes the server may say why
-            reason = payload[2:].decode(errors="replace")
-            raise ConnectionError("the server closed the connection" + (f": {reason}" if reason else ""))
+            raise Closed(int.from_bytes(payload[:2], "big"), payload[2:].decode(errors="replace"))
         elif opcode in (TEXT, BINARY, _CONTINUATION):
             if (opcode == _CONTINUATION) != (self._kind is not None):
                 raise ConnectionError("the server breaks the WebSocket protocol")

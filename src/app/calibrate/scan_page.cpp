@@ -28,8 +28,10 @@ void ScanPage::done(const std::string& what, const HandProfile* result) {
     segment.after = result ? result->segments[s].length : segment.before;
   }
   show(ViewScan::Phase::done, what);
+  if (!server_) return;
+  server_->set_farewell({Farewell::kDone, "The calibration is done and the program has ended."});
   constexpr std::chrono::seconds kPatience{1};
-  if (server_) server_->flush(kPatience);
+  server_->flush(kPatience);
 }
 
 void ScanPage::show(ViewScan::Phase phase, const std::string& progress) {

@@ -1,4 +1,4 @@
-// The command `barehand listen`, which prints the hand states that it receives over LCM.
+// The command `barehand listen`, which prints the states of hands and objects that it receives over LCM.
 #include "app/listen/listen_command.h"
 
 #include <CLI/CLI.hpp>
@@ -10,13 +10,11 @@
 #include <string>
 #include <thread>
 
+#include "app/listen/state_line.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/interrupt.h"
 #include "app/shared/standard_streams.h"
-#include "drivers/lcm/layouts.h"
 #include "drivers/lcm/lcm_listener.h"
-#include "hand/status_name.h"
-#include "math/angles.h"
 
 namespace barehand {
 namespace {
@@ -25,37 +23,6 @@ struct ListenOptions {
   std::string url, prefix;
   std::int64_t count = 0;
 };
-
-const char* status_text(int status) {
-  return status >= 0 && status < 4 ? to_string(static_cast<TrackStatus>(status)).data() : "?";
-}
-
-/// Prints one line: frame, hand, status and, if there is a pose, the palm's position [m] and confidence.
-void print_state(const hand_state_t& m) {
-  std::printf("frame %lld  %s hand %d  %-9s", static_cast<long long>(m.frame_number),
-              m.handedness == hand_state_t::LEFT ? "left" : "right", m.hand_id, status_text(m.status));
-  const segment_state_t& palm = m.segments[0];
-  if (m.has_pose) {
-    std::printf("  palm %7.3f %7.3f %7.3f m  confidence %.2f", palm.position[0], palm.position[1], palm.position[2],
-                palm.confidence);
-  }
-  std::printf("\n");
-}
-
-void print_glove(const glove_state_t& m) {
-  std::printf("frame %lld  flexion of knuckles [deg]", static_cast<long long>(m.frame_number));
-  for (const int channel : {glove_state_t::THUMB_MPJ, glove_state_t::INDEX_MPJ, glove_state_t::MIDDLE_MPJ,
-                            glove_state_t::RING_MPJ, glove_state_t::PINKIE_MPJ}) {
-    std::printf(" %5.0f", m.channel[channel] / kDegree);
-  }
-  std::printf("\n");
-}
-
-void print(const std::string& channel, WireBytes message) {
-  if (const auto state = decode_message<hand_state_t>(message)) return print_state(*state);
-  if (const auto glove = decode_message<glove_state_t>(message)) return print_glove(*glove);
-  std::printf("%s: %zu bytes of another type\n", channel.c_str(), message.size());
-}
 
 int listen(const ListenOptions& options) {
   std::atomic<bool> stop = false;
@@ -70,7 +37,7 @@ int listen(const ListenOptions& options) {
   const LcmListener listener(std::move(*bus), options.prefix + "*_STATE",
                              [&](const std::string& channel, WireBytes message) {
                                if (options.count > 0 && seen >= options.count) return;
-                               print(channel, message);
+                               std::puts(state_line(channel, message).c_str());
                                std::fflush(stdout);
                                ++seen;
                              });
@@ -87,7 +54,8 @@ int listen(const ListenOptions& options) {
 
 void add_listen_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ListenOptions>();
-  CLI::App* command = app.add_subcommand("listen", "Print hand and glove states from LCM");
+  CLI::App* command =
+      app.add_subcommand("listen", "Print what trackers send on LCM: hands, gloves, grasps, contacts and objects");
   command->add_option("--lcm-url", options->url, "LCM network");
   command->add_option("--prefix", options->prefix, "channel prefix of the tracker");
   command->add_option("--count", options->count, "stop after this many messages")->check(CLI::PositiveNumber);

@@ -68,6 +68,7 @@ Result<OpenSource> open_log(const std::string& path, const SourceRequest& reques
   // Collect what the log says about itself, and warn of what is missing in it.
   OpenSource open;
   open.frames = (*source)->remaining();
+  open.fps = (*source)->fps();
   open.warnings = (*source)->warnings();
   if (const auto bytes = (*source)->damaged_bytes(); bytes > 0)
     open.warnings.push_back(path + ": " + std::to_string(bytes) +
@@ -114,6 +115,7 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   auto source = LcmLiveSource::open(request.lcm_url, options);
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
+  open.if_silent = "Does a camera's program send them on this LCM network?";
   if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url))
     open.warnings.push_back(shortfall->message());
   open.source = std::move(*source);
@@ -129,6 +131,7 @@ Result<OpenSource> open_openni(const std::string& argument, const SourceRequest&
   OpenSource open;
   if (!is_oni_file(argument)) {
     open.fps = request.openni2.fps;
+    open.if_silent = "Is the sensor plugged in?";
     open.source = std::make_unique<OpenNiLiveSource>(argument, request.openni2, request.live_capacity, clock,
                                                      std::make_unique<LibUsbBus>());
     return open;
@@ -150,6 +153,7 @@ Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
   OpenSource open;
   if (const std::int64_t frames = (*source)->remaining(); frames >= 0) open.frames = frames;
   open.fps = (*source)->fps();
+  open.if_silent = "The simulator draws the next one.";
   for (const synthetic::SimulatedHand& hand : (*source)->hands())
     open.hands.push_back({[profile = hand.profile] { return Result<HandProfile>(profile); },
                           "of the simulated " + std::string(to_string(hand.profile.handedness)) + " hand"});
@@ -185,6 +189,8 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
 
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
   auto open = open_kind(request, clock);
+  if (open && open->if_silent.empty()) open->if_silent = "The next one of the recording is being read.";
+
   // Check the images, except for the simulator's, which may be identical if they have no noise.
   if (open && !request.spec.starts_with("sim:"))
     open->source = std::make_unique<CheckedSource>(std::move(open->source), request.depth, clock);

@@ -42,6 +42,7 @@ struct OpenSource {
   double fps = 0;                      ///< nominal rate at which frames come; 0: not known
   std::optional<std::int64_t> frames;  ///< number of frames to come, if known
   std::vector<std::string> warnings;   ///< problems to report, although the source could be opened
+  std::string if_silent;               ///< what the user should check if no frames come, as a sentence
 };
 
 /// Opens a source. Errors: an unknown kind of source, and those of its driver (no such file, no frames, no multicast

@@ -48,6 +48,10 @@ using Step = tl::expected<void, TrackFailure>;
 tl::unexpected<TrackFailure> usage(const Error& error) { return tl::unexpected(TrackFailure{error, kExitUsage}); }
 tl::unexpected<TrackFailure> failure(const Error& error) { return tl::unexpected(TrackFailure{error, kExitFailure}); }
 
+// What the live page says while a recording waits for Workers::run_in_background(), which tracking uses for this only.
+constexpr const char* kScanning =
+    "The person's hand is being scanned from the frames so far, and the recording waits for the result. That takes ten "
+    "seconds, or longer on a busy processor.";
 constexpr double kUsualRate = 30;  // frame rate of a video if that of the source is not known [Hz]
 
 /// One run, which is set up step by step: all input is checked before the first output file is touched.
@@ -93,6 +97,7 @@ class TrackRun {
     return (input_.fps > 0 ? input_.fps : unknown) / std::abs(static_cast<double>(options_.step));
   }
   PipelineHealth with_view(PipelineHealth health) const;
+  Farewell end_of_recording(const RunResult& result) const;
   int conclude(const RunResult& result);
   int exit_code_of_frames(const PipelineHealth& health);
 
@@ -341,9 +346,15 @@ Step TrackRun::open_view() {
 
   // Give the hands to the page, and add the sink that sends it every frame.
   for (const auto& profile : profiles_) page_->server().set_profile(profile);
-  ViewSink::Input input{
-      input_.source->name(),      input_.source->live(), [this] { return pipeline_->health(); }, world_, scan_,
-      config_.run.channel_prefix, page_->recorder()};
+  ViewSink::Input input{input_.source->name(),
+                        input_.source->live(),
+                        [this] { return pipeline_->health(); },
+                        world_,
+                        scan_,
+                        config_.run.channel_prefix,
+                        page_->recorder(),
+                        input_.if_silent};
+  input.held_up_by = [this] { return workers_->does_long_work() ? std::string(kScanning) : std::string(); };
   sinks_.push_back(
       std::make_unique<ViewSink>(config_.publish, page_->server(), std::move(input), clock_, &pending_.view));
   return {};
@@ -424,7 +435,17 @@ TrackOutcome TrackRun::run() {
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
   const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
+  if (page_ && !input_.source->live()) page_->server().set_farewell(end_of_recording(result));
   return {with_view(result.health), progress_->counts(), seconds, result.stopped, conclude(result), std::move(page_)};
+}
+
+/// What the live page says when a recording or a simulation was tracked.
+Farewell TrackRun::end_of_recording(const RunResult& result) const {
+  if (result.error) return {Farewell::kDone, "Tracking has ended with an error, which the program's output names."};
+  const std::string what = options_.source.starts_with("sim:") ? "simulation" : "recording";
+  if (result.stopped) return {Farewell::kDone, "Barehand was stopped before the end of the " + what + "."};
+  const std::string frames = std::to_string(result.health.published);
+  return {Farewell::kDone, "The " + what + " has ended; " + frames + " frames were tracked."};
 }
 
 int TrackRun::conclude(const RunResult& result) {

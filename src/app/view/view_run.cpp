@@ -12,6 +12,7 @@
 #include "app/shared/exit_code.h"
 #include "app/shared/interrupt.h"
 #include "app/shared/run_inputs.h"
+#include "app/shared/standard_streams.h"
 #include "app/view/live_view.h"
 #include "app/view/log_index.h"
 #include "app/view/log_player.h"
@@ -20,12 +21,6 @@
 
 namespace barehand {
 namespace {
-
-/// Prints an error and returns `exit_code`.
-int tell(const Error& error, int exit_code) {
-  std::cerr << "barehand view: " << error.message() << std::endl;
-  return exit_code;
-}
 
 /// A profile for each side: the one given by the user, or the mean adult hand.
 Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
@@ -125,17 +120,24 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
   }
 }
 
+/// ViewServer::start() with errors that name the option of this command.
+Result<std::unique_ptr<ViewServer>> start_server(ViewServer::Options options, const Clock& clock) {
+  auto server = ViewServer::start(std::move(options), clock);
+  if (!server) server.error().remedy += " with --port PORT";
+  return server;
+}
+
 int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
-  if (!index) return tell(index.error(), kExitUsage);
+  if (!index) return failed("view", index.error(), kExitUsage);
   for (const std::string& warning : index->warnings()) std::cerr << "barehand view: " << warning << "\n";
   std::string name;
   for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
   const SystemClock clock;
   LogShow show(std::move(*index), name, std::move(shown), clock);
   auto server =
-      ViewServer::start({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
-  if (!server) return tell(server.error(), kExitFailure);
+      start_server({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
+  if (!server) return failed("view", server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see the log; Ctrl-C ends\n";
   show.run(**server, stop);
   return kExitOk;
@@ -143,20 +145,21 @@ int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown
 
 int view_network(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto bus = LcmBus::open(options.lcm_url);
-  if (!bus) return tell(bus.error(), kExitFailure);
+  if (!bus) return failed("view", bus.error(), kExitFailure);
   const SystemClock clock;
   constexpr std::size_t kWaiting = 120;  // messages that may wait for the recorder; a frame has about four
   std::unique_ptr<LogRecorder> recorder;
   if (!options.record.empty())
     recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record, kWaiting}, make_logger(), clock);
-  auto server = ViewServer::start({address, options.origins, {}, recorder.get()}, clock);
-  if (!server) return tell(server.error(), kExitFailure);
+  auto server = start_server({address, options.origins, {}, recorder.get()}, clock);
+  if (!server) return failed("view", server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()
             << "; Ctrl-C ends\n";
   LiveView live(std::move(*bus), {options.prefix, shown.T_world_camera, recorder.get()}, std::move(shown.hands),
                 **server, clock);
   while (!stop && !live.broken()) live.step(std::chrono::milliseconds(20));
-  return live.broken() ? tell({"the LCM connection broke", options.lcm_url, "start again"}, kExitFailure) : kExitOk;
+  return live.broken() ? failed("view", {"the LCM connection broke", options.lcm_url, "start again"}, kExitFailure)
+                       : kExitOk;
 }
 
 }  // namespace
@@ -165,15 +168,17 @@ int run_view(const ViewOptions& options) {
   std::atomic<bool> stop = false;
   const InterruptWatcher interrupt([&stop] { stop = true; });
   if (options.lcm != options.logs.empty())
-    return tell({"nothing to show", "", "give logs, or --lcm, but not both"}, kExitUsage);
+    return failed("view", {"nothing to show", "", "give logs, or --lcm, but not both"}, kExitUsage);
   if (!options.record.empty()) {
-    if (!options.lcm) return tell({"records what comes live", "--record", "give --lcm instead of a log"}, kExitUsage);
-    if (const auto good = LogRecorder::check_folder(options.record); !good) return tell(good.error(), kExitUsage);
+    if (!options.lcm)
+      return failed("view", {"records what comes live", "--record", "give --lcm instead of a log"}, kExitUsage);
+    if (const auto good = LogRecorder::check_folder(options.record); !good)
+      return failed("view", good.error(), kExitUsage);
   }
   const auto address = parse_web_address(options.port);
-  if (!address) return tell(address.error(), kExitUsage);
+  if (!address) return failed("view", address.error(), kExitUsage);
   auto shown = shown_of(options);
-  if (!shown) return tell(shown.error(), kExitUsage);
+  if (!shown) return failed("view", shown.error(), kExitUsage);
   const int code = options.lcm ? view_network(options, *address, std::move(*shown), stop)
                                : view_logs(options, *address, std::move(*shown), stop);
   return code == kExitOk && interrupt.signal() == SIGINT ? kExitInterrupted : code;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <future>
 #include <memory>
 #include <type_traits>
@@ -45,9 +46,13 @@ class Workers {
         return fn(alone);
       });
     auto done = std::async(std::launch::deferred, [this, fn = std::move(fn)]() mutable { return fn(*this); });
+    ++long_works_;
     done.wait();
+    --long_works_;
     return done;
   }
+  /// Whether a recording waits for long work now (see run_in_background()). Any thread may ask.
+  bool does_long_work() const { return long_works_ > 0; }
   /// Must be called when frames come from a live source, which long work must not delay (see run_in_background()).
   void go_live() { live_ = true; }
 
@@ -64,6 +69,7 @@ class Workers {
 
   int threads_;
   bool live_ = false;
+  std::atomic<int> long_works_ = 0;  ///< that are waited for
   std::unique_ptr<TbbArena> arena_;  ///< null for one thread
 };
 

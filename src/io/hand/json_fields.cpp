@@ -1,8 +1,10 @@
 // Reads fields of JSON objects, with error messages that name file, object and key.
 #include "io/hand/json_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
@@ -20,7 +22,7 @@ std::string range_text(double lo, double hi) {
 }
 
 tl::unexpected<Error> bad(const Object& object, const char* key, const std::string& what, const std::string& wanted) {
-  return fail("\"" + std::string(key) + "\" " + what, object.where, "it must be " + wanted);
+  return fail(std::string("\"").append(key).append("\" ").append(what), object.where, "it must be " + wanted);
 }
 
 Result<double> checked(const Object& object, const char* key, const Json& value, double lo, double hi) {
@@ -29,6 +31,14 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
   if (!(number >= lo && number <= hi))  // rejects NaN, too
     return bad(object, key, "is " + value.dump(), range_text(lo, hi));
   return number;
+}
+
+/// The line and the column of a text's byte, which counts from 1.
+std::string place_in(const std::string& text, std::size_t byte) {
+  const std::string_view before = std::string_view(text).substr(0, std::max<std::size_t>(byte, 1) - 1);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const std::size_t column = before.size() - (before.rfind('\n') + 1);  // npos + 1 is 0: the first line
+  return "line " + std::to_string(line) + ", column " + std::to_string(column + 1);
 }
 
 }  // namespace
@@ -40,8 +50,11 @@ Result<Json> read_json(const std::string& path) {
 Result<Json> parse_json(const std::string& text, const std::string& where) {
   try {
     return Json::parse(text);
-  } catch (const Json::exception& error) {
-    return fail(std::string("is not valid JSON: ") + error.what(), where, "correct the place named");
+  } catch (const Json::parse_error& error) {
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return fail("is empty", where, "it must hold JSON");
+    return fail("is not valid JSON at " + place_in(text, error.byte), where, "correct that place");
+  } catch (const Json::out_of_range&) {
+    return fail("holds a number that is too large", where, "correct it");
   }
 }
 
@@ -80,6 +93,12 @@ Result<std::string> Object::text(const char* key) const {
   if (!has(key)) return bad(*this, key, "is missing", "a text");
   if (!json.at(key).is_string()) return bad(*this, key, "is " + json.at(key).dump(), "a text");
   return json.at(key).get<std::string>();
+}
+
+Result<bool> Object::boolean(const char* key) const {
+  if (!has(key)) return bad(*this, key, "is missing", "true or false");
+  if (!json.at(key).is_boolean()) return bad(*this, key, "is " + json.at(key).dump(), "true or false");
+  return json.at(key).get<bool>();
 }
 
 Result<SE3> Object::transform(const char* key) const {

@@ -10,7 +10,7 @@ namespace barehand::json_fields {
 
 using Json = nlohmann::json;
 
-/// Reads and parses a file. Errors: a missing file, or a syntax error with its line.
+/// Reads and parses a file. Errors: a missing file, or a syntax error with its line and column.
 Result<Json> read_json(const std::string& path);
 /// Parses a text. `where`: origin of the text, for messages.
 Result<Json> parse_json(const std::string& text, const std::string& where);
@@ -27,6 +27,7 @@ struct Object {
   Result<double> number_or(const char* key, double fallback, double lo, double hi) const;
   Result<std::vector<double>> numbers(const char* key, std::size_t count, double lo, double hi) const;
   Result<std::string> text(const char* key) const;
+  Result<bool> boolean(const char* key) const;
   Result<SE3> transform(const char* key) const;
   bool has(const char* key) const { return json.contains(key); }
 };

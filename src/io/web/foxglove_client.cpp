@@ -47,29 +47,42 @@ FoxgloveClient::~FoxgloveClient() {
 }
 
 void FoxgloveClient::start() {
-  next_.reply = text_of({{"op", "serverInfo"},
-                         {"name", "barehand"},
-                         {"capabilities", Json::array()},
-                         {"supportedEncodings", Json::array()},
-                         {"metadata", Json::object()}});
+  replies_.add(text_of({{"op", "serverInfo"},
+                        {"name", "barehand"},
+                        {"capabilities", Json::array()},
+                        {"supportedEncodings", Json::array()},
+                        {"metadata", Json::object()}}));
   thread_ = std::thread([this] { run(); });
 }
 
-/// Adds and removes subscriptions. Error: there are too many.
-Result<void> FoxgloveClient::execute(const FoxgloveRequest& request) {
+/// Adds and removes subscriptions; answers each one that is not possible.
+void FoxgloveClient::execute(const FoxgloveRequest& request) {
   for (const auto& [id, channel] : request.subscribe) {
-    if (next_.subscriptions.size() >= kMostSubscriptions) return fail("there are too many subscriptions");
-    next_.subscriptions[id] = channel;
+    const std::string name = "Subscription " + std::to_string(id);
+    if (channel == 0 || channel > advertised_)
+      refuse(name + " asks for channel " + std::to_string(channel) +
+             ", which does not exist. Give the id of a channel that was advertised.");
+    else if (next_.subscriptions.contains(id))
+      refuse(name + " exists already. Choose another id, or unsubscribe first.");
+    else if (next_.subscriptions.size() >= kMostSubscriptions)
+      refuse(name + " is one too many; a viewer may have " + std::to_string(kMostSubscriptions) + ".");
+    else
+      next_.subscriptions[id] = channel;
   }
-  for (const std::uint32_t id : request.unsubscribe) next_.subscriptions.erase(id);
-  return {};
+  for (const std::uint32_t id : request.unsubscribe)
+    if (next_.subscriptions.erase(id) == 0) refuse("Subscription " + std::to_string(id) + " does not exist.");
+}
+
+/// Tells the viewer that a request of it was not followed.
+void FoxgloveClient::refuse(const std::string& why) {
+  constexpr int kError = 2;  // level of a status
+  replies_.add(text_of({{"op", "status"}, {"level", kError}, {"message", why}}));
 }
 
 bool FoxgloveClient::receive(std::string_view text) {
   const auto request = parse_foxglove_request(text);
   const std::lock_guard lock(mutex_);
-  const Result<void> executed = request ? execute(*request) : tl::unexpected(request.error());
-  if (!executed) next_.reply = text_of({{"op", "status"}, {"level", 1}, {"message", executed.error().message()}});
+  request ? execute(*request) : refuse(request.error().message());
 
   // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
   if (request && !request->subscribe.empty()) frames_.repeat();
@@ -86,6 +99,14 @@ void FoxgloveClient::post(ViewFramePtr frame) {
   changed_.notify_all();
 }
 
+void FoxgloveClient::end(const Farewell& farewell) {
+  {
+    const std::lock_guard lock(mutex_);
+    next_.farewell = farewell;
+  }
+  changed_.notify_all();
+}
+
 QueueHealth FoxgloveClient::health() const {
   const std::lock_guard lock(mutex_);
   return frames_.health();
@@ -95,6 +116,7 @@ void FoxgloveClient::run() {
   Due due;
   while (wait(due)) {
     if (send(due)) continue;
+    if (!due.farewell) socket_.disconnect();
     const std::lock_guard lock(mutex_);
     broken_ = true;
   }
@@ -103,18 +125,24 @@ void FoxgloveClient::run() {
 /// Waits until something is to be sent, and moves it to `due`. Returns false when the client is being destroyed.
 bool FoxgloveClient::wait(Due& due) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return ending_ || (!broken_ && (frames_.waiting() || !next_.reply.empty())); });
+  changed_.wait(lock, [&] { return ending_ || (!broken_ && has_due()); });
   if (ending_) return false;
-  due.reply = std::exchange(next_.reply, {});
+  due.replies = replies_.take();
+  due.farewell = next_.farewell;
   due.frame = frames_.take();
   due.subscriptions = next_.subscriptions;
   return true;
 }
 
 bool FoxgloveClient::send(const Due& due) {
-  // Answer the client, then see whether a frame is due.
-  if (!due.reply.empty() && !socket_.send_text(due.reply)) return false;
-  if (!due.frame) return true;
+  for (const std::string& reply : due.replies)
+    if (!socket_.send_text(reply)) return false;
+  if (due.frame && !send_frame(due)) return false;
+  if (due.farewell) socket_.ask_to_close(*due.farewell);
+  return !due.farewell;  // nothing may follow it
+}
+
+bool FoxgloveClient::send_frame(const Due& due) {
   const auto time = ros::time_of(due.frame->content().utime);
   if (!time) return true;
 
@@ -151,7 +179,14 @@ bool FoxgloveClient::advertise(const std::vector<ros::Topic>& topics) {
                           {"schemaEncoding", "ros2msg"},
                           {"schema", topic.schema}});
   }
-  return channels.empty() || socket_.send_text(text_of({{"op", "advertise"}, {"channels", channels}}));
+  if (channels.empty()) return true;
+
+  // Know the channels before the viewer does, which may subscribe at once.
+  {
+    const std::lock_guard lock(mutex_);
+    advertised_ = static_cast<std::uint32_t>(channels_.size());
+  }
+  return socket_.send_text(text_of({{"op", "advertise"}, {"channels", channels}}));
 }
 
 bool FoxgloveClient::send_message(std::uint32_t subscription, std::uint64_t time,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "io/ros/ros_topics.h"
 #include "io/web/foxglove_request.h"
 #include "io/web/newest_frame.h"
+#include "io/web/replies.h"
 #include "io/web/web_server.h"
 
 namespace barehand {
@@ -35,6 +37,8 @@ class FoxgloveClient : public WebPeer {
   /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
   /// dropped.
   void post(ViewFramePtr frame);
+  /// Sends what still waits, and then asks the viewer to close the connection. Returns at once.
+  void end(const Farewell& farewell);
   /// The counts of this client's frames, like those of a queue that holds one frame.
   QueueHealth health() const;
 
@@ -43,13 +47,17 @@ class FoxgloveClient : public WebPeer {
   /// Data to be sent next.
   struct Due {
     ViewFramePtr frame;
-    std::string reply;
+    std::vector<std::string> replies;
     Subscriptions subscriptions;
+    std::optional<Farewell> farewell;
   };
-  Result<void> execute(const FoxgloveRequest& request);
+  void execute(const FoxgloveRequest& request);
+  void refuse(const std::string& why);
+  bool has_due() const { return frames_.waiting() || !replies_.empty() || next_.farewell; }
   void run();
   bool wait(Due& due);
   bool send(const Due& due);
+  bool send_frame(const Due& due);
   bool advertise(const std::vector<ros::Topic>& topics);
   bool send_message(std::uint32_t subscription, std::uint64_t time, std::span<const std::uint8_t> message);
 
@@ -58,9 +66,12 @@ class FoxgloveClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // data to be sent next, except for the frame, which `frames_` holds
+  Due next_;  // data to be sent next, except for the frame and the replies, which the next two hold
   NewestFrame frames_;
-  bool ending_ = false, broken_ = false;
+  Replies replies_;
+  std::uint32_t advertised_ = 0;  // the viewer knows the channels 1 to this one
+  bool ending_ = false;
+  bool broken_ = false;  // nothing more can be sent
 
   // Used by the sending thread only.
   std::map<std::string, std::uint32_t> channels_;  // advertised channels by topic

@@ -1,6 +1,8 @@
 // The connected Foxglove viewers.
 #include "io/web/foxglove_clients.h"
 
+#include <algorithm>
+
 #include "io/ros/urdf.h"
 
 namespace barehand {
@@ -43,15 +45,28 @@ void FoxgloveClients::add_health(QueueHealth& all) const {
   for (const FoxgloveClient* client : clients_) add_counts(client->health(), all);
 }
 
-std::optional<WebFile> FoxgloveClients::urdf(const std::string& path) const {
-  std::shared_ptr<const HandProfile> profile;
-  {
+void FoxgloveClients::end(const Farewell& farewell) {
+  const std::lock_guard lock(mutex_);
+  for (FoxgloveClient* client : clients_) client->end(farewell);
+}
+
+Result<WebFile> FoxgloveClients::urdf(const std::string& path, const std::string& base) const {
+  constexpr std::array<const char*, 2> kPaths = {"/left_hand.urdf", "/right_hand.urdf"};  // by Handedness
+  const auto wanted = std::ranges::find(kPaths, path);
+  if (wanted == kPaths.end()) return fail("There is no such file.");
+  const auto side = static_cast<std::size_t>(wanted - kPaths.begin());
+
+  // Describe the hand, or say which hands are tracked.
+  auto profiles = [&] {
     const std::lock_guard lock(mutex_);
-    if (path == "/left_hand.urdf") profile = profiles_[0];
-    if (path == "/right_hand.urdf") profile = profiles_[1];
-  }
-  if (!profile) return std::nullopt;
-  return WebFile{"application/xml", ros::urdf(*profile)};
+    return profiles_;
+  }();
+  if (profiles[side]) return WebFile{"application/xml", ros::urdf(*profiles[side])};
+  const std::string what = "The " + std::string(to_string(static_cast<Handedness>(side))) + " hand is not tracked.";
+  const std::size_t other = 1 - side;
+  if (!profiles[other]) return fail(what + " No hand is known yet; ask again when one was seen.");
+  return fail(what + " Only the " + std::string(to_string(static_cast<Handedness>(other))) + " hand is: " + base +
+              kPaths[other]);
 }
 
 }  // namespace barehand

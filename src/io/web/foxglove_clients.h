@@ -4,7 +4,6 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <string>
 
@@ -23,11 +22,14 @@ class FoxgloveClients {
   void show(const ViewFramePtr& frame);
   /// Remembers a profile before a frame shows it.
   void set_profile(std::shared_ptr<const HandProfile> profile);
+  /// Ends all connections: see FoxgloveClient::end().
+  void end(const Farewell& farewell);
   /// Adds the counts of frames of all clients since the start to `all`.
   void add_health(QueueHealth& all) const;
   /// The description of a hand as a robot, for the paths "/right_hand.urdf" and "/left_hand.urdf", made from its last
-  /// profile. None: another path, or no such hand is known.
-  std::optional<WebFile> urdf(const std::string& path) const;
+  /// profile. Error: another path, or a hand that is not tracked; then it names the hands that are, with their URLs,
+  /// which begin with `base`.
+  Result<WebFile> urdf(const std::string& path, const std::string& base) const;
 
  private:
   void forget(const FoxgloveClient& client);

@@ -18,37 +18,41 @@ std::optional<std::uint32_t> number_of(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) ? number(json[key]) : std::nullopt;
 }
 
-/// The list under a key, empty if there is none.
-Json list_of(const Json& json, const char* key) {
-  return json.contains(key) && json[key].is_array() ? json[key] : Json::array();
-}
+/// Whether there is a list under a key.
+bool has_list(const Json& json, const char* key) { return json.contains(key) && json[key].is_array(); }
 
 }  // namespace
 
 Result<FoxgloveRequest> parse_foxglove_request(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) return fail("The message is not valid JSON.");
   if (!json.is_object() || !json.contains("op") || !json["op"].is_string())
-    return fail("this is no message of the protocol");
+    return fail("The message is no JSON object with an operation as its \"op\", such as \"subscribe\".");
   const auto op = json["op"].get<std::string>();
 
   FoxgloveRequest request;
   if (op == "subscribe") {
     // Read which channels are requested, each under a number that the client chose.
-    for (const Json& one : list_of(json, "subscriptions")) {
+    if (!has_list(json, "subscriptions"))
+      return fail("The operation subscribe needs the list \"subscriptions\", such as [{\"id\": 1, \"channelId\": 3}].");
+    for (const Json& one : json["subscriptions"]) {
       const auto id = number_of(one, "id"), channel = number_of(one, "channelId");
-      if (!id || !channel) return fail("a subscription needs an id and a channelId");
+      if (!id || !channel)
+        return fail("A subscription needs an \"id\" and a \"channelId\", both whole numbers from 0 to 4294967295.");
       request.subscribe.push_back({*id, *channel});
     }
   } else if (op == "unsubscribe") {
     // Read the numbers of the subscriptions that end.
-    for (const Json& one : list_of(json, "subscriptionIds")) {
+    if (!has_list(json, "subscriptionIds"))
+      return fail("The operation unsubscribe needs the list \"subscriptionIds\", such as [1].");
+    for (const Json& one : json["subscriptionIds"]) {
       const auto id = number(one);
-      if (!id) return fail("a subscription is named by a number");
+      if (!id) return fail("An id in \"subscriptionIds\" is no whole number from 0 to 4294967295.");
       request.unsubscribe.push_back(*id);
     }
   } else {
     // Refuse every other operation.
-    return fail("the operation " + op + " is not offered: topics can only be read");
+    return fail("The operation \"" + op + "\" is not offered; only subscribe and unsubscribe are.");
   }
   return request;
 }

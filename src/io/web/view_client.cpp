@@ -60,7 +60,7 @@ Result<void> ViewClient::follow(const ViewRequest& request) {
 void ViewClient::reply(const Error& error) {
   const nlohmann::json reply{{"type", "error"}, {"text", error.message()}};
   constexpr auto replace = nlohmann::json::error_handler_t::replace;  // the client's message need not be UTF-8
-  next_.reply = std::make_shared<const std::string>(reply.dump(-1, ' ', false, replace));
+  replies_.add(reply.dump(-1, ' ', false, replace));
 }
 
 void ViewClient::post(ViewFramePtr frame) {
@@ -80,6 +80,14 @@ void ViewClient::post_status(StatusText status) {
   changed_.notify_all();
 }
 
+void ViewClient::end(const Farewell& farewell) {
+  {
+    const std::lock_guard lock(mutex_);
+    next_.farewell = farewell;
+  }
+  changed_.notify_all();
+}
+
 bool ViewClient::is_told() const {
   const std::lock_guard lock(mutex_);
   return broken_ || (!next_.status && !sending_);
@@ -94,6 +102,7 @@ void ViewClient::run() {
   Due due;
   while (wait(due)) {
     const bool sent = send(due);
+    if (!sent && !due.farewell) socket_.disconnect();
     const std::lock_guard lock(mutex_);
     sending_ = false;
     if (!sent) broken_ = true;
@@ -102,12 +111,13 @@ void ViewClient::run() {
 
 bool ViewClient::has_due(std::int64_t now_us) const {
   if (broken_) return false;
-  return next_.status || next_.reply || has_due_frame(now_us);
+  return next_.status || !replies_.empty() || next_.farewell || has_due_frame(now_us);
 }
 
 bool ViewClient::has_due_frame(std::int64_t now_us) const {
+  if (!frames_.waiting() || !asked_) return false;
   const bool window_open = next_.settings.window == 0 || under_way_ < next_.settings.window;
-  return frames_.waiting() && asked_ && window_open && now_us >= next_at_us_;
+  return next_.farewell || (window_open && now_us >= next_at_us_);
 }
 
 /// Waits until something may be sent, and moves it to `due`. Returns false when the client is being destroyed.
@@ -124,10 +134,11 @@ bool ViewClient::wait(Due& due) {
   }
   if (ending_) return false;
 
-  // Take the newest status, reply and settings.
+  // Take the newest status, the replies, the settings and the farewell.
   sending_ = true;
   due.status = std::exchange(next_.status, nullptr);
-  due.reply = std::exchange(next_.reply, nullptr);
+  due.replies = replies_.take();
+  due.farewell = next_.farewell;
   due.settings = next_.settings;
   due.frame = nullptr;
 
@@ -141,9 +152,12 @@ bool ViewClient::wait(Due& due) {
 }
 
 bool ViewClient::send(const Due& due) {
-  if (due.reply && !socket_.send_text(*due.reply)) return false;
+  for (const std::string& reply : due.replies)
+    if (!socket_.send_text(reply)) return false;
   if (due.status && !socket_.send_text(*due.status)) return false;
-  return !due.frame || send_frame(*due.frame, due.settings);
+  if (due.frame && !send_frame(*due.frame, due.settings)) return false;
+  if (due.farewell) socket_.ask_to_close(*due.farewell);
+  return !due.farewell;  // nothing may follow it
 }
 
 bool ViewClient::send_frame(const ViewFrame& frame, const ViewSettings& settings) {

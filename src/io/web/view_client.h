@@ -4,11 +4,14 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/clock.h"
 #include "io/web/newest_frame.h"
+#include "io/web/replies.h"
 #include "io/web/web_server.h"
 
 namespace barehand {
@@ -36,6 +39,9 @@ class ViewClient : public WebPeer {
   /// dropped.
   void post(ViewFramePtr frame);
   void post_status(StatusText status);
+  /// Sends what still waits, whether or not the client acknowledges it, and then asks the client to close the
+  /// connection. Returns at once.
+  void end(const Farewell& farewell);
   /// Whether the last status has been sent, or the connection is broken so that nothing can be sent.
   bool is_told() const;
   /// Counts the frames of this client, as of a queue with a capacity of one.
@@ -45,8 +51,10 @@ class ViewClient : public WebPeer {
   /// Data to be sent next.
   struct Due {
     ViewFramePtr frame;
-    StatusText status, reply;
+    StatusText status;
+    std::vector<std::string> replies;
     ViewSettings settings;
+    std::optional<Farewell> farewell;
   };
   Result<void> follow(const ViewRequest& request);
   void reply(const Error& error);
@@ -64,11 +72,13 @@ class ViewClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // data to be sent next, except for the frame, which `frames_` holds
+  Due next_;  // data to be sent next, except for the frame and the replies, which the next two hold
   NewestFrame frames_;
+  Replies replies_;
   int under_way_ = 0;            // number of frames that were sent and not acknowledged yet
   std::int64_t next_at_us_ = 0;  // earliest time of the next frame, steady clock
-  bool asked_ = false, sending_ = false, ending_ = false, broken_ = false;
+  bool asked_ = false, sending_ = false, ending_ = false;
+  bool broken_ = false;  // nothing more can be sent
 
   // Used by the sending thread only.
   std::array<ViewSkinPtr, 2> skins_;  // the skins sent last, by Handedness

@@ -2,32 +2,33 @@
 #include "io/web/view_request.h"
 
 #include <array>
-#include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+
+#include "io/hand/json_fields.h"
 
 namespace barehand {
 namespace {
 
-using nlohmann::json;
+using json_fields::Object;
 constexpr const char* kWhere = "message of a client";
 
 /// The position of `message[key]` among `names`; 0 if there is no such key.
-Result<int> choice_of(const json& message, const char* key, std::initializer_list<const char*> names) {
-  const std::string wanted = message.value(key, *names.begin());
+Result<int> choice_of(const Object& message, const char* key, std::initializer_list<const char*> names) {
+  const auto wanted = message.has(key) ? message.text(key) : Result<std::string>(*names.begin());
+  if (!wanted) return tl::unexpected(wanted.error());
   std::string list;
   int position = 0;
   for (const char* name : names) {
-    if (wanted == name) return position;
+    if (*wanted == name) return position;
     list.append(list.empty() ? "" : ", ").append(name);
     ++position;
   }
   return fail(std::string("no such ") + key, kWhere, "ask for one of " + list);
 }
 
-Result<ViewRequest> settings_of(const json& message) {
+Result<ViewRequest> settings_of(const Object& message) {
   ViewSettings settings;
 
   // Read what shall be shown.
@@ -39,20 +40,24 @@ Result<ViewRequest> settings_of(const json& message) {
   settings.picture = static_cast<ViewPicture>(*picture);
 
   // Read the size and the rate of what is sent.
-  settings.large = message.value("large", settings.large);
-  settings.rate = message.value("rate", settings.rate);
-  if (!(settings.rate >= 0.1 && settings.rate <= 1000)) return fail("rate is out of range", kWhere, "give 0.1 to 1000");
+  const auto large = message.has("large") ? message.boolean("large") : Result<bool>(settings.large);
+  if (!large) return tl::unexpected(large.error());
+  settings.large = *large;
+  const auto rate = message.number_or("rate", settings.rate, 0.1, 1000);
+  if (!rate) return tl::unexpected(rate.error());
+  settings.rate = *rate;
 
   // Read how many frames may be unacknowledged.
-  settings.window = message.value("window", settings.window);
-  if (settings.window < 0 || settings.window > 100) return fail("window is out of range", kWhere, "give 0 to 100");
+  const auto window = message.number_or("window", settings.window, 0, 100);
+  if (!window) return tl::unexpected(window.error());
+  settings.window = static_cast<int>(*window);
   return settings;
 }
 
-Result<ViewRequest> record_of(const json& message) {
-  if (!message.contains("on") || message.size() > 2)
+Result<ViewRequest> record_of(const Object& message) {
+  if (message.json.size() > 2)
     return fail("a command to record holds nothing but \"on\"", kWhere, "send {\"type\": \"record\", \"on\": true}");
-  return RecordCommand{message.at("on").get<bool>()};
+  return message.boolean("on").map([](bool on) -> ViewRequest { return RecordCommand{on}; });
 }
 
 std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
@@ -68,27 +73,27 @@ std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
   return std::nullopt;
 }
 
-Result<ViewRequest> request_of(const json& message) {
-  const std::string type = message.at("type");
-  if (type == "want") return settings_of(message);
-  if (type == "ack") return ViewAcknowledge{};
-  if (type == "record") return record_of(message);
-  const auto kind = player_kind(type);
+Result<ViewRequest> request_of(const Object& message) {
+  const auto type = message.text("type");
+  if (!type) return tl::unexpected(type.error());
+  if (*type == "want") return settings_of(message);
+  if (*type == "ack") return ViewAcknowledge{};
+  if (*type == "record") return record_of(message);
+  const auto kind = player_kind(*type);
   if (!kind) return fail("unknown type", kWhere, "give want, ack, record, play, pause, seek, step, speed or lost");
-  const double value = message.value("value", 0.0);
-  if (!(std::abs(value) <= 1e9)) return fail("value is out of range", kWhere, "give a number");
-  return PlayerCommand{*kind, value};
+  return message.number_or("value", 0, -1e9, 1e9).map([&](double value) -> ViewRequest {
+    return PlayerCommand{*kind, value};
+  });
 }
 
 }  // namespace
 
 Result<ViewRequest> parse_view_request(std::string_view text) {
-  // A client may send anything; the exceptions of nlohmann's JSON parser say what is wrong.
-  try {
-    return request_of(json::parse(text));
-  } catch (const json::exception& error) {
-    return fail(error.what(), kWhere, "send JSON as docs/view_protocol.md says");
-  }
+  const auto json = json_fields::parse_json(std::string(text), kWhere);
+  if (!json) return tl::unexpected(json.error());
+  if (!json->is_object())
+    return fail("is no JSON object", kWhere, "send an object with a \"type\", such as {\"type\": \"want\"}");
+  return request_of({*json, kWhere});
 }
 
 }  // namespace barehand

@@ -26,7 +26,9 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   web.connect = [self = server.get()](WebSocket socket) { return self->connect(socket); };
   web.protocols.assign(std::begin(kFoxgloveProtocols), std::end(kFoxgloveProtocols));
   web.connect_protocol = [self = server.get()](WebSocket socket) { return self->foxglove_.connect(socket); };
-  web.made_file = [self = server.get()](const std::string& path) { return self->foxglove_.urdf(path); };
+  web.made_file = [self = server.get()](const std::string& path, const std::string& base) {
+    return self->foxglove_.urdf(path, base);
+  };
 
   // Start to listen only when everything is in place.
   auto started = WebServer::start(std::move(web));
@@ -35,7 +37,27 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   return server;
 }
 
-ViewServer::~ViewServer() = default;
+namespace {
+/// Waits until `done` returns true, but no longer than `patience`.
+void wait_until(const std::function<bool()>& done, std::chrono::milliseconds patience) {
+  constexpr std::int64_t kStepMs = 5;
+  for (std::int64_t ms = 0; ms < patience.count() && !done(); ms += kStepMs)
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+}
+}  // namespace
+
+ViewServer::~ViewServer() {
+  if (!web_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    for (ViewClient* client : clients_) client->end(farewell_);
+  }
+  foxglove_.end(farewell_);
+
+  // A connection that the server cut off could lose what the client has not read yet, so wait for the clients.
+  constexpr std::chrono::seconds kPatience{1};
+  wait_until([&] { return !has_clients(); }, kPatience);
+}
 
 std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
   const std::lock_guard lock(mutex_);
@@ -87,9 +109,7 @@ void ViewServer::flush(std::chrono::milliseconds patience) const {
     const std::lock_guard lock(mutex_);
     return std::ranges::all_of(clients_, [](const ViewClient* client) { return client->is_told(); });
   };
-  constexpr std::int64_t kStepMs = 5;
-  for (std::int64_t ms = 0; ms < patience.count() && !all_told(); ms += kStepMs)
-    std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
+  wait_until(all_told, patience);
 }
 
 QueueHealth ViewServer::health() const {

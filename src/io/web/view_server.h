@@ -29,6 +29,7 @@ class ViewServer {
   };
   /// `clock` must outlive the server. Errors: the port is taken, the page's files are missing.
   static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);
+  /// Sends every client what still waits and the farewell. Waits up to a second until they have left.
   ~ViewServer();
 
   std::string url() const { return web_->url(); }
@@ -44,6 +45,8 @@ class ViewServer {
   void show_status(std::string json);
   /// Waits until the last status has been sent to every client that reads, but no longer than `patience`.
   void flush(std::chrono::milliseconds patience) const;
+  /// Sets why connections are closed when the server is destroyed. The default says that the program was stopped.
+  void set_farewell(Farewell farewell) { farewell_ = std::move(farewell); }
   /// Counts the frames for all clients together since the start. The capacity is one frame per client.
   QueueHealth health() const;
 
@@ -66,6 +69,7 @@ class ViewServer {
   ViewFramePtr frame_;
   StatusText status_;
 
+  Farewell farewell_;
   FoxgloveClients foxglove_;
   std::unique_ptr<WebServer> web_;  // declared last, so destroyed first: it disconnects all clients
 };

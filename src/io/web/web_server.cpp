@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
-constexpr int kTryAgainLater = 1013;               // code of a WebSocket's end
 
 std::string_view header(const mg_connection* connection, const char* name) {
   const char* value = mg_get_header(connection, name);
@@ -54,10 +53,13 @@ bool WebSocket::send(int opcode, const char* data, std::size_t size) {
   return mg_websocket_write(connection_, opcode, data, size) >= static_cast<int>(size) && size > 0;
 }
 
-void WebSocket::ask_to_close(int code, const std::string& reason) {
-  const std::string payload{static_cast<char>(code >> 8), static_cast<char>(code & 0xff)};
-  (void)send(MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, (payload + reason).data(), payload.size() + reason.size());
+void WebSocket::ask_to_close(const Farewell& farewell) {
+  const std::string payload =
+      std::string{static_cast<char>(farewell.code >> 8), static_cast<char>(farewell.code & 0xff)} + farewell.reason;
+  (void)send(MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, payload.data(), payload.size());
 }
+
+void WebSocket::disconnect() { mg_close_connection(connection_); }  // only sets a flag that the server's thread reads
 
 class WebServer::Impl {
  public:
@@ -92,7 +94,7 @@ class WebServer::Impl {
   }
   static void on_close(const mg_connection* connection, void* self) { static_cast<Impl*>(self)->closed(connection); }
 
-  std::optional<WebFile> file_of(const std::string& path) const;
+  Result<WebFile> file_of(const mg_connection* connection) const;
 
   const Options options_;
   std::vector<const char*> protocol_names_;
@@ -128,7 +130,9 @@ Result<int> WebServer::Impl::start() {
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
   context_ = mg_start(&callbacks, this, settings);
-  if (!context_) return fail("cannot listen on " + port, "view", "another program may have the port; give --view=PORT");
+  if (!context_)
+    return fail("cannot listen on " + port, "live page",
+                "another program may have the port, or the address is not this machine's; give another one");
 
   // Set the handlers.
   mg_set_request_handler(context_, "**", on_request, this);
@@ -168,23 +172,24 @@ void WebServer::Impl::send_error(mg_connection* connection, int status, const ch
   mg_send_http_error(connection, status, "%s", text);
 }
 
-std::optional<WebFile> WebServer::Impl::file_of(const std::string& path) const {
+Result<WebFile> WebServer::Impl::file_of(const mg_connection* connection) const {
+  const std::string path = mg_get_request_info(connection)->local_uri;
   if (const auto file = options_.files.find(path == "/" ? "/index.html" : path); file != options_.files.end())
     return file->second;
-  return options_.made_file ? options_.made_file(path) : std::nullopt;
+  if (!options_.made_file) return fail("There is no such file.");
+  return options_.made_file(path, "http://" + std::string(header(connection, "Host")));
 }
 
 int WebServer::Impl::answer(mg_connection* connection) const {
-  const mg_request_info& request = *mg_get_request_info(connection);
-  const std::string_view method = request.request_method;
+  const std::string_view method = mg_get_request_info(connection)->request_method;
 
   // Refuse requests that do not come from an allowed page or are not for one of the files.
   if (!is_allowed(connection))
     send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
   else if (method != "GET" && method != "HEAD")
     send_error(connection, 405, "Files can be read only.");
-  else if (const auto file = file_of(request.local_uri); !file)
-    send_error(connection, 404, "There is no such file.");
+  else if (const auto file = file_of(connection); !file)
+    send_error(connection, 404, file.error().message().c_str());
 
   // Send the file, with headers that keep out scripts and connections of other origins.
   else {
@@ -212,7 +217,8 @@ void WebServer::Impl::ready(mg_connection* connection) {
     --clients_;
     const std::string places = std::to_string(kMaxClients);
     return WebSocket(connection)
-        .ask_to_close(kTryAgainLater, "Barehand serves " + places + " pages and viewers already, and no more.");
+        .ask_to_close(
+            {Farewell::kTryAgainLater, "Barehand serves " + places + " pages and viewers already, and no more."});
   }
 
   // Create the program's side of the connection.
@@ -266,7 +272,8 @@ Result<WebAddress> parse_web_address(const std::string& text) {
   const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), out.port);
   const bool number = error == std::errc() && end == port.data() + port.size() && out.port >= 0 && out.port < 65536;
   if (!number || out.address.empty())
-    return fail("no port", text, "give PORT, or ADDRESS:PORT such as 0.0.0.0:8765 for the whole network");
+    return fail("is no port from 0 to 65535", text.empty() ? "\"\"" : text,
+                "give PORT, or ADDRESS:PORT such as 0.0.0.0:8765 for the whole network");
   return out;
 }
 

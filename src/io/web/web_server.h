@@ -18,6 +18,15 @@ namespace barehand {
 
 // An HTTP and WebSocket server.
 
+/// Why the server closes a connection.
+struct Farewell {
+  static constexpr int kDone = 1000;             ///< nothing more will come, so that connecting again is of no use
+  static constexpr int kStopped = 1001;          ///< the program stops and may come back
+  static constexpr int kTryAgainLater = 1013;    ///< there is no place for the client now
+  int code = kStopped;                           ///< code of the WebSocket's end (RFC 6455)
+  std::string reason = "Barehand was stopped.";  ///< for the user; at most 123 bytes
+};
+
 /// Sends messages to one connected client. Not thread-safe.
 class WebSocket {
  public:
@@ -26,8 +35,10 @@ class WebSocket {
   /// gone, or has accepted nothing for kStuckSeconds.
   bool send_text(std::string_view text);
   bool send_binary(std::span<const std::uint8_t> bytes);
-  /// Asks the client to close the connection; a browser shows `reason` (at most 123 bytes) to the page's script.
-  void ask_to_close(int code, const std::string& reason);
+  /// Asks the client to close the connection; a browser passes the code and the reason to the page's script.
+  void ask_to_close(const Farewell& farewell);
+  /// Ends the connection of a client to which nothing more can be sent. The server does it within kStuckSeconds.
+  void disconnect();
 
  private:
   bool send(int opcode, const char* data, std::size_t size);
@@ -69,8 +80,9 @@ class WebServer {
     std::vector<std::string> protocols;  ///< subprotocols of the WebSocket at "/"; only used with connect_protocol
     /// Creates the peer of a client at "/" that asked for one of `protocols`. Empty: there is no such WebSocket.
     std::function<std::unique_ptr<WebPeer>(WebSocket)> connect_protocol;
-    /// Makes the file at a path that is not in `files`, or returns none. May be empty.
-    std::function<std::optional<WebFile>(const std::string&)> made_file;
+    /// Makes the file at a path that is not in `files`. `base`: the server's URL as the client calls it, such as
+    /// "http://localhost:8765". Error: there is no such file; its message is sent to the client. May be empty.
+    std::function<Result<WebFile>(const std::string& path, const std::string& base)> made_file;
   };
 
   /// Starts the server. Error: the port is taken or must not be used.

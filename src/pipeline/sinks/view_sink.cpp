@@ -57,6 +57,8 @@ Result<void> ViewSink::idle() {
 
 Result<void> ViewSink::finish() {
   if (input_.recorder) input_.recorder->finish();
+  frame_us_ = clock_.steady_us();  // that no more frames come is no trouble
+  show_status();
   return {};
 }
 
@@ -118,12 +120,25 @@ void ViewSink::show_status() {
 
   state.health = input_.health();
   state.health->queues.push_back(server_.health());
-  if (const std::int64_t silent_us = status_us_ - frame_us_; silent_us >= kNoFramesUs)
-    state.trouble =
-        formatted(any_frame_ ? "No frame has been tracked for %lld s. Is the sensor plugged in, and the processor free?"
-                             : "No frame has been tracked yet, for %lld s. Is the sensor plugged in?",
-                  static_cast<long long>(silent_us / 1'000'000));
+  if (status_us_ - frame_us_ >= kNoFramesUs) state.trouble = trouble(*state.health);
   server_.show_status(status_json(state));
+}
+
+/// Why no frame has been tracked for a while, as far as the program knows.
+std::string ViewSink::trouble(const PipelineHealth& health) const {
+  const auto silent_s = static_cast<long long>((status_us_ - frame_us_) / 1'000'000);
+
+  // Work that is known to take long comes first.
+  if (const std::string work = input_.held_up_by ? input_.held_up_by() : ""; !work.empty())
+    return formatted("%s So far it has taken %lld s.", work.c_str(), silent_s);
+
+  // Either a frame is being tracked, or none has arrived.
+  const bool at_work = health.captured > health.published + health.dropped + health.failed;
+  if (at_work)
+    return formatted("Tracking the %s frame has taken %lld s so far. Is the processor busy with other work?",
+                     any_frame_ ? "next" : "first", silent_s);
+  return formatted("No frame has come %s%lld s. %s", any_frame_ ? "for " : "yet, for ", silent_s,
+                   input_.if_silent.c_str());
 }
 
 }  // namespace barehand

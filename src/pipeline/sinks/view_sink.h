@@ -26,6 +26,9 @@ class ViewSink : public Sink {
     std::function<ViewScan()> scan = {};     ///< empty: no hand is being scanned
     std::string prefix = {};                 ///< prefix of the channels in recordings
     LogRecorder* recorder = nullptr;         ///< must outlive the sink; null: nothing can be recorded
+    std::string if_silent = {};              ///< what the user should check if the source sends nothing, as a sentence
+    /// What holds up the tracker at present, as a sentence; returns "" while nothing does. Empty: nothing ever does.
+    std::function<std::string()> held_up_by = {};
   };
   /// `server`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   ViewSink(const PublishParams& params, ViewServer& server, Input input, const Clock& clock,
@@ -35,13 +38,14 @@ class ViewSink : public Sink {
   Result<void> consume(const TrackedFrame& tracked) override;
   /// Sends the status even if no frames arrive.
   Result<void> idle() override;
-  /// Ends a recording and waits until its file is complete.
+  /// Ends a recording, waits until its file is complete, and sends the last status.
   Result<void> finish() override;
 
  private:
   ViewFramePtr make_frame(const TrackedFrame& tracked, const FrameMessages& messages);
   bool recording_changed() const;
   ViewSkinPtr skin_of(const HandEstimate& estimate);
+  std::string trouble(const PipelineHealth& health) const;
   void show_status();
 
   HandMessageMakers makers_;
