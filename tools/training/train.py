@@ -62,7 +62,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     before = _loss(network, name, unseen)
 
     # Train with new examples in every step.
-    batches = _batches(generator, name, batch, 1 if options.smoke else _AT_ONCE)
+    batches = _batches(generator, name, batch, *((1, 1) if options.smoke else (_AT_ONCE, _PASSES)))
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
@@ -87,10 +87,10 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     return network
 
 
-def _batches(generator: Generator, name: str, size: int, at_once: int) -> Iterator[Examples]:
+def _batches(generator: Generator, name: str, size: int, at_once: int, passes: int) -> Iterator[Examples]:
     while True:
         examples = make_examples(generator, name, size * at_once)
-        for _ in range(_PASSES):
+        for _ in range(passes):
             yield from parts(shuffled(examples), size)
 
 
