@@ -33,7 +33,7 @@ constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a ha
 constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // longest side of most of these objects [m]
 constexpr double kFarthest = 10;  // largest distance from the file's origin [m]: single precision is too coarse beyond
 constexpr std::size_t kMostTriangles = 500'000;
-constexpr int kDeepestJson = 100;  // most levels of nested JSON: assimp's parser recurses at each level
+constexpr int kDeepestJson = 100;  // most levels of nested JSON; assimp recurses at each and could overflow the stack
 
 /// A length as text, in metres or millimetres.
 std::string readable(double metres) {
