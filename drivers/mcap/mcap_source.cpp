@@ -55,7 +55,7 @@ Result<std::unique_ptr<McapSource>> McapSource::open(const std::string& path, co
   if (options.step == 0)
     return fail("a step of 0 would repeat one frame without end", path, "use 1, or -1 to play backwards");
 
-  // Note all messages of the file.
+  // Register all messages of the file.
   std::unique_ptr<McapSource> source(new McapSource(path, options));
   auto reader = mcap::McapReader::open(path, [&](const auto& message, const auto& channel, auto bytes) {
     source->add_message(message, channel, bytes);
@@ -133,7 +133,7 @@ void McapSource::add_message(const mcap::Message& message, const mcap::Channel& 
     return;
   }
 
-  // Keep the place of an image message, and its time.
+  // Store the position of an image message in the file, and its time.
   stream.messages.push_back(message);
   stream.utimes.push_back(utime);
 }
@@ -153,7 +153,7 @@ Result<void> McapSource::choose() {
       chosen.push_back(topic);
   }
 
-  // Report it if nothing is there, or if no topic matches.
+  // Fail if the file has no readable message, or if no topic with depth images matches.
   if (streams_.empty())
     return fail("holds no message that can be read", path_, "it is empty, damaged or cut short before its first chunk");
   if (chosen.empty() && !options_.channel.empty())
@@ -199,7 +199,7 @@ const McapSource::Stream* McapSource::colour_of(const std::string& topic) {
     others.push_back(other);
   }
 
-  // Report colour that is left unused.
+  // Warn about colour streams that cannot be used with this depth.
   if (!others.empty())
     warnings_.push_back(path_ + ": the colour of " + comma_list(others) +
                         " has another frame or size than the depth of " + topic +
@@ -230,7 +230,7 @@ Result<void> McapSource::add_frames(const std::string& topic) {
     const mcap::Channel& channel = reader_->channels().at(frame.depth.channel);
     const bool own = channel.metadata.contains(ros::kDepthUnit);
 
-    // Number the frame, or note why it is not used.
+    // Number the frame, or store the reason why it is not used.
     const auto position = static_cast<std::int64_t>(i);
     const auto number = order.number(frame.utime, own ? frame.depth.sequence : position);
     if (number)

@@ -53,10 +53,10 @@ constexpr double kBorderThumb = 1.03;
 constexpr double kBorderLittle = 1.13;
 
 // The webs between neighbouring fingers.
-constexpr double kWebBlend = 0.00427;    // width of the smooth transition [m]
+constexpr double kWebBlend = 0.00427;    // width of the smooth transition to fingers and palm [m]
 constexpr double kWebAt = 0.232;         // position of a web, as a fraction of the proximal phalanges' length
 constexpr double kWebHalfLength = 1.14;  // half length of a web, relative to the fingers' half thickness at the PIP
-constexpr double kWebThickness = 0.94;   // half thickness of a web, relative to the same thickness of the fingers
+constexpr double kWebThickness = 0.94;   // half thickness of a web, relative to that half thickness of the fingers
 constexpr double kWebOffset = 1.54;      // shift towards the palm (along y), relative to the knuckles' flesh offset
 
 // The web between thumb and index finger. Sizes are relative to the half thickness of the thumb at its next joint.
@@ -65,9 +65,10 @@ constexpr double kThumbWebAlongPalm = 0.661;   // where the web ends, as a fract
 constexpr double kThumbWebThickness = 0.484;   // half thickness of the thumb's web
 constexpr double kThumbWebHalfLength = 1.18;   // half length of the thumb's web along the bones
 constexpr double kThumbWebOffset = -0.35;      // shift of the web's end towards the back of the hand
-constexpr double kThumbWebBlend = 0.00821;     // width of the smooth transition [m]
+constexpr double kThumbWebBlend = 0.00821;     // width of the smooth transition to thumb and palm [m]
 
-// A section of a phalanx relative to the profile's section at an end or, in the middle, to one interpolated from both.
+// A cross-section of a phalanx: at an end relative to the profile's section there, and in the middle relative to the
+// section that is interpolated between both ends.
 struct SectionShape {
   double width = 1, thickness = 1;  // factors on the half axes
   double rise = 0;                  // shift towards the back of the hand, as a fraction of the half thickness

@@ -29,7 +29,7 @@ using KnownObjectPtr = std::shared_ptr<const KnownObject>;
 /// object is that of the mesh.
 KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id);
 
-/// Places spread evenly over the surface of a mesh, in random order; always the same ones.
+/// Samples spread evenly over the surface of a mesh, in random order; the same for every call.
 std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh);
 
 /// Where a known object is in one frame.

@@ -14,9 +14,9 @@ using Eigen::Vector3d;
 // the fit that precedes it, which approximates the hand by elliptic sections.
 constexpr double kAcrossBone = 0.002;  // position of a joint across the bone [m]
 constexpr double kAlongBone = 0.003;   // position of a joint along the bone; in all directions for the thumb's root [m]
-constexpr double kBetweenBones = 0.001;  // distance of the two points of a joint [m]
+constexpr double kBetweenBones = 0.001;  // distance between the two points of a joint [m]
 constexpr double kRestTurn = 0.015;      // rotation of a joint's axes [rad]
-constexpr double kBesideMiddle = 0.001;  // distance of a finger's root from the middle of its skin [m]
+constexpr double kBesideMiddle = 0.001;  // distance of a finger's root joint from the middle of the finger's skin [m]
 
 // Standard deviations of the skin.
 constexpr double kOffset = 0.1;           // offset of a vertex [m]: weak, it only determines vertices never seen
@@ -140,7 +140,8 @@ class Prior {
     const auto sections = SkinSections::fit(start_.skin, segment, start_.profile.segments[segment].length, true);
     if (!sections) return;
 
-    // Express the distance of the root from the middle as a linear function of the root and the offsets.
+    // Express the root joint's distance from the middle of the skin as a linear function of the joint and the vertices'
+    // offsets.
     double beside = sections->middle_x(0) - model_.in_segment[segment].x();
     std::vector<int> unknowns = {ScanVariables::joint(segment) + 3};
     std::vector<double> J = {-1};

@@ -41,7 +41,7 @@ Pipeline::Pipeline(PipelineStages stages, PipelineOptions options, const Clock& 
 RunResult Pipeline::run() {
   options_.threaded ? run_threaded() : run_inline();
 
-  // Collect how the run ended.
+  // Finish the sinks, and collect the result of the run.
   finish_sinks();
   RunResult result{health(), std::nullopt, {}, stopped()};
   for (const auto& monitor : sink_monitors_)

@@ -76,9 +76,9 @@ class Pipeline {
   /// `clock` and `log` must outlive the pipeline, and so must the source and the sinks.
   Pipeline(PipelineStages stages, PipelineOptions options, const Clock& clock, RepeatLog& log);
 
-  /// Call once. Returns when all frames are processed.
+  /// Must be called only once. Returns when all frames are processed.
   RunResult run();
-  /// Takes no more frames from the source. Any thread may call it.
+  /// Stops taking frames from the source. Any thread may call it.
   void request_stop() { stop_ = true; }
   /// Counters since the start of the run. Any thread may call it at any time.
   PipelineHealth health() const;

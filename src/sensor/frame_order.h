@@ -18,7 +18,7 @@ inline constexpr std::int64_t kLatestUtime = 100'000'000'000'000'000;
 /// frame is a repetition or arrived late.
 inline constexpr std::int64_t kRestart = 1'000'000;
 
-/// The unit that a source's stamps are stated in, for messages.
+/// The unit in which a source states its time stamps. It is only used in messages for the user.
 enum class StampUnit { seconds, microseconds };
 
 /// Explains a stamp that is beyond kLatestUtime when read in `unit`, for example "this looks like milliseconds since
@@ -37,7 +37,7 @@ class FrameOrder {
  public:
   explicit FrameOrder(StampUnit unit) : unit_(unit) {}
 
-  /// Returns the number that the frame gets. Error: why the frame is not used.
+  /// Returns the number that the frame gets. The error says why a frame is not used.
   Result<std::int64_t> number(std::int64_t utime, std::int64_t number);
 
   /// Returns the warnings about the frames since the last call, each only once.

@@ -11,10 +11,10 @@
 namespace barehand {
 namespace {
 
-// Sizes of the copies, relative to the profile, that are tried when nothing is found. A deviation of a tenth needs no
-// copy, since a search with the profile itself still finds the hand.
+// When searches with the profile find no hand, scaled copies of it are tried, of these sizes relative to the profile. A
+// deviation of a tenth needs no copy, since a search with the profile itself still finds the hand.
 constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};
-// Number of failed searches per try of another size: kOften for the first kOftenUntil failures, then kSeldom, since a
+// Another size is tried after every kOften failed searches; from kOftenUntil failures on, after every kSeldom, since a
 // region in which no hand was found for so long most likely shows none.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
 
@@ -26,11 +26,12 @@ constexpr double kAnySize = 0.4,  // standard deviation expected of the size of 
 constexpr int kSizeChecks = 10,   // number of frames of a track whose detected joints are used
     kVerified = 3,                // number of deviating sizes that are all verified after the last confirmed one
     kVerifiedEvery = 30;          // later, only every n-th deviating size is verified
-// The networks understate sizes far from those of real hands: beyond kFarSize (logarithm), the true deviation may be
-// kUnderstated times the one that the joints show.
+// The networks underestimate large deviations from the usual size of a hand. If the detected joints show a deviation
+// larger than kFarSize, the true one may be kUnderstated times as large, so both sizes are tried.
 constexpr double kFarSize = 0.35, kUnderstated = 1.5;
 
-// Log odds from which on the networks are sure of the side of a hand: they err in about one of fifty hands then.
+// Log odds of the side (left or right) from which on the networks are trusted: they then err for about one hand in
+// fifty.
 constexpr double kSureSide = 4;
 
 // Number of search attempts with the mirrored profile if the score of the profile itself is not confident. Most hands
@@ -153,7 +154,8 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
                                                      double log_size) {
   if (++size_refuted_ > kVerified && size_refuted_ % kVerifiedEvery != 0) return std::nullopt;
 
-  // A copy of this size, or of the size that it may stand for, must explain the observation clearly better.
+  // A copy of this size, or of the true size if the networks underestimate it, must explain the observation clearly
+  // better.
   std::vector<double> log_sizes = {log_size};
   if (std::abs(log_size) > kFarSize) log_sizes.push_back(kUnderstated * log_size);
 

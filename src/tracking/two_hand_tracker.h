@@ -23,8 +23,8 @@ class TwoHandTracker {
   TwoHandTracker(const TrackerParams& params, const Profiles& profiles, std::uint64_t seed, Workers& workers,
                  std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
-  /// Processes one frame. One observation per hand in; they are in the order of the profiles only if they follow
-  /// feedback (see by_hand). Estimates come out in the order of the profiles.
+  /// Processes one frame. `observations`: one per hand; they are in the order of the profiles if preprocessing had
+  /// feedback, and in any order otherwise (see by_hand()). Returns the estimates in the order of the profiles.
   HandEstimates process(const HandObservations& observations);
   int count() const { return static_cast<int>(hands_.size()); }
   /// The tracker of the k-th hand.

@@ -17,15 +17,16 @@
 
 namespace barehand {
 
-/// Finds the objects whose shape is known among the objects near the hands. Gives their points in `points` their ids,
-/// and lets them replace their entries in `objects`.
+// The contact stage, which finds what the tracked hands touch: objects, each other or themselves.
+
+/// Finds the known objects (those for which a mesh was given) among the objects near the hands. Sets their ids in
+/// `points`, and replaces their entries in `objects`.
 using KnownObjectFinder =
     std::function<std::vector<PosedObject>(const HandObservations& observations, const HandEstimates& estimates,
                                            std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects)>;
 
-/// The contact stage: says what the tracked hands of a frame touch, from their estimates and observations, frame after
-/// frame in order. It changes no estimate. Contacts are stated for hands that are tracked; those of the others are
-/// unknown.
+/// Finds the contacts of the hands from their estimates and observations. The frames must come in order. No estimate is
+/// changed. The contacts of a hand that is not tracked are unknown.
 class ContactStage {
  public:
   explicit ContactStage(const ContactParams& params) : params_(params) {}

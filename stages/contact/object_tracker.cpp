@@ -8,13 +8,15 @@ namespace {
 
 constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) do not make an object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
-constexpr double kOpenPlace = 0.2;   // the same for the middle of the visible part of a table [m]
-constexpr double kOverlap = 0.4;     // fraction of a component on the model of an object that makes it a part of it
-constexpr double kGone = 0.25;       // contradiction of a model from which on it is no longer at its place
-constexpr double kSame = 0.7;        // fraction of a model on a second one from which on both are the same object
-// Time after which an object that is not seen is forgotten, and one that is held [us].
+constexpr double kOpenPlace = 0.2;   // limit for the middle of the visible part of a table [m]
+// A component belongs to an object if this fraction of its points lies on the model of the object.
+constexpr double kOverlap = 0.4;
+constexpr double kGone = 0.25;  // contradiction of a model from which on the object is no longer at its place
+// Two objects are the same one if this fraction of a component of one lies on the model of the other.
+constexpr double kSame = 0.7;
+// Times after which an object that is not seen is forgotten [us]: while it is not held, and while it is held.
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
-constexpr double kLongest = 0.25;  // time between two frames that still gives a velocity [s]
+constexpr double kLongest = 0.25;  // longest time between two frames from which a velocity is computed [s]
 
 }  // namespace
 
@@ -107,7 +109,7 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   }
 }
 
-/// Assigns every object on no model to the nearest track, or to a new one.
+/// Assigns every object that lies on no model to the nearest track, or to a new one.
 void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points) {
   // Add up the points of each object that is on no model, and find the objects that continue out of view.
   clusters_.assign(static_cast<std::size_t>(links_.components()), {});
@@ -156,13 +158,13 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
   }
 }
 
-/// Removes tracks whose only visible points belong to another track: both are the same object, which keeps the
-/// older id.
+/// Removes each track that was not seen and on whose model points of another track lie: both are the same object, which
+/// keeps the older id.
 void ObjectTracker::merge(std::int64_t utime) {
   const auto components = static_cast<std::size_t>(links_.components());
   const std::size_t known = components == 0 ? 0 : near_.size() / components;
 
-  // Search for a track that was not seen and whose model is near the points of another track.
+  // For each track that was not seen, look for another track whose points lie on its model.
   for (std::size_t t = 0; t < known; ++t) {
     ObjectTrack& track = tracks_[t];
     for (std::size_t i = 0; i < components && track.seen != utime; ++i) {

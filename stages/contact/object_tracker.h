@@ -13,18 +13,19 @@ namespace barehand {
 /// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {
  public:
-  /// `first_id`: the id of the first object; smaller ones belong to others.
+  /// `first_id`: the id of the first object; smaller ids belong to known objects.
   explicit ObjectTracker(std::int32_t first_id = 1) : next_id_(first_id) {}
 
-  /// Removes points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models that
-  /// are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
+  /// Removes the points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models
+  /// that are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
   void process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
                const std::vector<bool>& open, std::vector<SurfacePoint>& points, FrameVector<ObjectEstimate>& objects);
   /// The objects as of the last frame.
   std::span<const ObjectTrack> tracks() const { return tracks_; }
-  /// Takes note of what the hands touch in this frame: it probably moves with them.
+  /// Stores which objects the hands touch in this frame: they probably move with the hands.
   void note_touches(std::span<const HandContacts> hands);
-  /// Whether a place (camera frame [m]) was seen to be empty, not part of this object, while nothing covered it.
+  /// Whether a point (camera frame [m]) was seen to be empty while nothing covered it, so that it is not part of this
+  /// object.
   bool seen_empty(std::int32_t object, const Eigen::Vector3f& p) const;
 
  private:

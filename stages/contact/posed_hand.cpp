@@ -11,12 +11,13 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kSkinPoints = 80;         // number of skin points per segment
-constexpr double kSkinChange = 0.0005;  // change of a bone or a section for which the skin is made again [m]
-constexpr float kWrist = 0.02f;         // skin of the palm nearer to the wrist than this lies on the sleeve [m]
+constexpr double kSkinChange = 0.0005;  // the skin is rebuilt if a bone or a section changes by more than this [m]
+constexpr float kWrist = 0.02f;         // skin of the palm nearer to the wrist is left out: a sleeve may cover it [m]
 constexpr float kCuff = 0.035f;         // points nearer to the wrist than this belong to the hand or to a sleeve [m]
-constexpr float kOwn = 0.004f;          // points this near to skin that faces the same way are the hand's own [m]
-// Points farther from the skin than kOff are not hand. Palm and thumb bulge, and their points are sparse: there,
-// a point must be farther than kBulge from the skin around it, up to kApart away [m].
+constexpr float kOwn = 0.004f;  // points closer than this to skin that faces the same way are the hand's own [m]
+// Points farther than kOff from all skin points do not belong to the hand [m]. Palm and thumb bulge, and their skin
+// points are sparse: there, a point belongs to the hand if it is closer than kApart to a skin point and, along the
+// normal, closer than kBulge [m].
 constexpr float kOff = 0.009f, kBulge = 0.015f, kApart = 0.025f;
 
 /// Whether the skins of two profiles differ by no more than fractions of a millimetre.
@@ -38,7 +39,7 @@ bool alike(const HandProfile& a, const HandProfile& b) {
 }  // namespace
 
 void PosedHand::pose(const HandEstimate& estimate) {
-  // Make the skin if this is another hand than before.
+  // Build the skin if the profile has changed.
   if (!profile_ || (profile_ != estimate.profile && !alike(*profile_, *estimate.profile))) {
     const HandProfile& profile = *estimate.profile;
     surface_ = profile.scanned_skin ? surface_points(*profile.scanned_skin, profile, kSkinPoints)
@@ -55,7 +56,7 @@ void PosedHand::pose(const HandEstimate& estimate) {
     const Vector3f t = pose_[s].t.cast<float>();
     PosedSkin& skin = skin_[s];
 
-    // Move its points, and enclose them in a sphere.
+    // Transform the segment's points, and sum them up for the centre of the enclosing sphere.
     skin.points.clear();
     skin.normals.clear();
     skin.centre.setZero();

@@ -1,3 +1,4 @@
+// Extracts a closed mesh of an object from samples of its visible surface.
 #include "stages/contact/scanned_mesh.h"
 
 #include <Eigen/Geometry>
@@ -20,29 +21,30 @@ using Eigen::Vector3i;
 constexpr float kCell = 0.004f;    // cell size of the grid in which samples are searched [m]
 constexpr int kReach = 2;          // cells to each side in which samples are searched
 constexpr float kRadius = 0.008f;  // samples nearer to each other than this share the surface around them [m]
-constexpr float kSmooth = 0.005f;  // width of the weights of the planes [m]
+constexpr float kSmooth = 0.005f;  // width of the Gaussian weights of the samples' tangent planes [m]
 constexpr float kSameSide = 0.3f;  // least cosine between the normals of samples on one side of a sheet
-// Up to kNear from a sample the planes alone decide, from kFar on the winding number alone [m].
+// Distances from the nearest sample [m]: up to kNear, the samples' tangent planes alone give the signed distance; from
+// kFar on, the winding number alone.
 constexpr float kNear = 0.004f, kFar = 0.008f;
 constexpr double kMargin = 0.01;  // margin around the samples [m]
-constexpr float kCore = 0.003f;   // distances in the winding number are at least this [m]
+constexpr float kCore = 0.003f;   // smallest distance in the winding number [m]
 
-/// The signed distance from samples of a surface, negative inside.
+/// The signed distance from the surface of an object of which samples are known; negative inside.
 class SampledSolid {
  public:
   explicit SampledSolid(std::span<const SurfaceSample> samples);
   /// Signed distance near the samples; elsewhere a value with the right sign [m].
   double distance(const Vector3d& place) const;
-  /// Distance of the nearest sample, if that is within about kFar; otherwise infinity [m].
+  /// Distance to the nearest sample [m], if it is smaller than kFar; otherwise infinity.
   float apart(const Vector3f& p) const { return at(p).apart; }
   const Vector3f& lower() const { return lower_; }
   const Vector3f& upper() const { return upper_; }
 
  private:
-  /// Distances of a place from the samples around it.
+  /// Distances of a point from the samples around it [m].
   struct Nearby {
-    float apart = std::numeric_limits<float>::infinity();  // distance of the nearest sample
-    float height = 0;                                      // height of the place above the samples' planes
+    float apart = std::numeric_limits<float>::infinity();  // distance to the nearest sample
+    float height = 0;  // weighted mean of the signed distances from their tangent planes
   };
 
   template <class Act>
@@ -65,13 +67,13 @@ class SampledSolid {
 };
 
 SampledSolid::SampledSolid(std::span<const SurfaceSample> samples) {
-  // Enclose them in a grid.
+  // Enclose the samples in a grid.
   lower_ = upper_ = samples[0].p;
   for (const SurfaceSample& sample : samples) lower_ = lower_.cwiseMin(sample.p), upper_ = upper_.cwiseMax(sample.p);
   origin_ = lower_;
   side_ = ((upper_ - lower_) / kCell).array().floor().cast<int>() + 1;
 
-  // Sort them into its cells.
+  // Sort the samples into the cells of the grid.
   first_.assign(static_cast<std::size_t>(side_.cast<long>().prod()) + 1, 0);
   for (const SurfaceSample& sample : samples) ++first_[number(indices(sample.p)) + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -94,7 +96,8 @@ void SampledSolid::for_nearby(const Vector3f& p, const Act& act) const {
     }
 }
 
-/// Computes the area of each sample: nearby samples share the surface. A sample at a border would get too much.
+/// Computes the area of each sample: nearby samples share the surface. The area is limited, since a sample at a border
+/// has few neighbours and would get too much.
 void SampledSolid::measure_areas() {
   const auto count = static_cast<Eigen::Index>(samples_.size());
   places_.resize(count, 3);
@@ -124,7 +127,7 @@ SampledSolid::Nearby SampledSolid::at(const Vector3f& p) const {
   });
   if (!nearest) return {};
 
-  // Average the planes of those that are on its side of the object.
+  // Average the signed distances from the tangent planes of samples on the same side of the object as the nearest one.
   float sum = 0, height = 0;
   for_nearby(p, [&](const SurfaceSample& sample) {
     if (sample.n.dot(nearest->n) < kSameSide) return;
@@ -163,7 +166,7 @@ ObjectMesh largest_part(const TriangleMesh& mesh) {
   for (const auto& t : mesh.triangles) ++count[parts.root(t[0])];
   const int best = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
 
-  // Copy it.
+  // Copy the vertices of this part.
   ObjectMesh part;
   std::vector<std::uint32_t> index(mesh.vertices.size());
   for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i) {

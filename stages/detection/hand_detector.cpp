@@ -11,14 +11,15 @@
 namespace barehand {
 namespace {
 
-constexpr int kPalmRadius = 8;   // half the size of the square around a peak that gives the palm's depth [px]
+constexpr int kPalmRadius = 8;   // half the side of the square around a peak in which the palm's depth is measured [px]
 constexpr double kApart = 0.09;  // minimum distance between two hands' palms [m]
 
-/// Median depth [m] of the pixels near a peak that are labelled as hand; 0 if there are none.
+/// Median depth [m] of the pixels near a peak of the palm heat map that the network labels as hand; 0 if there are
+/// none. (u, v): pixel of `depth` at the peak.
 double palm_depth(const Image<float>& depth, const NetworkOutput& output, double u, double v) {
   std::vector<float> found;
 
-  // Collect the depths around the palm at which the network labels the hand.
+  // Collect the depths of the pixels around the peak that the network labels as hand.
   const int centre_u = static_cast<int>(std::lround(u)), centre_v = static_cast<int>(std::lround(v));
   for (int y = std::max(0, centre_v - kPalmRadius); y <= std::min(depth.height() - 1, centre_v + kPalmRadius); ++y)
     for (int x = std::max(0, centre_u - kPalmRadius); x <= std::min(depth.width() - 1, centre_u + kPalmRadius); ++x) {
@@ -118,7 +119,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
   out.whole_frame = true;
   if (const auto found = find_palms(frame, out); !found) return tl::unexpected(found.error());
 
-  // Leave out the palms that earlier searches found unlikely, except where a tracked hand is.
+  // Leave out palms that earlier searches found to be unlikely, except near a tracked hand.
   known_.begin_search();
   std::erase_if(palms_, [&](const Palm& palm) {
     const auto here = [&](const ExpectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };
@@ -132,7 +133,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
     for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}});
     if (const auto done = examine(frame, places_, workers); !done) return tl::unexpected(done.error());
 
-    // Add what was found.
+    // Add the hands that were found.
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       auto& hand = *found_[i];
       known_.examined(chosen_[i].centre, chosen_[i].probability, hand ? &*hand : nullptr);

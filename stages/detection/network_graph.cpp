@@ -12,7 +12,8 @@
 namespace barehand {
 namespace {
 
-/// What the file contains and this program does not support. Lookups of unknown names throw std::out_of_range.
+/// Thrown for a feature of the file that this program does not support. Lookups of unknown names throw
+/// std::out_of_range.
 struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -133,12 +134,12 @@ class OnnxReader {
     graph_.steps.push_back(std::move(step));
   }
 
-  /// Makes an addition or the positive part a part of the convolution before it.
+  /// Merges an addition or a ReLU into the convolution before it.
   void extend_convolution(const onnx::NodeProto& node) {
     const bool add = node.op_type() == "Add";
     require(node.input_size() == (add ? 2 : 1), node.op_type() + " of other inputs");
     for (int i = 0; i < node.input_size(); ++i) {
-      // Nothing else may need what the convolution itself computes, and its addend must be known before.
+      // The convolution's own result must have no other use, and the addend must be computed before it.
       const int value = values_.at(node.input(i));
       const auto found = convolutions_.find(value);
       if (found == convolutions_.end() || uses_[node.input(i)] != 1) continue;
@@ -172,7 +173,7 @@ class OnnxReader {
     NetworkGraph::Join step;
     NetworkGraph::Shape out;
     for (const std::string& name : node.input()) {
-      // An enlarged input is joined by its source, with the size that it is enlarged to.
+      // Resize has no step of its own: the join reads the input of Resize, and enlarges it to the size of its output.
       const auto found = enlarged_.find(name);
       const int value = found != enlarged_.end() ? found->second.value : values_.at(name);
       const NetworkGraph::Shape& in = graph_.values[value];
@@ -207,7 +208,7 @@ class OnnxReader {
   void compute_size(const onnx::NodeProto& node) {
     std::vector<std::int64_t>& out = integers_[node.output(0)];
 
-    // Constants, and the sizes of values.
+    // Read a constant, or the shape of a value.
     if (node.op_type() == "Constant" && node.attribute_size() == 1) {
       const onnx::TensorProto& tensor = node.attribute(0).t();
       if (tensor.data_type() == onnx::TensorProto::INT64) out = numbers_of<std::int64_t>(tensor);
@@ -215,7 +216,7 @@ class OnnxReader {
       const NetworkGraph::Shape& shape = shape_of(node.input(0));
       out = {1, shape.channels, shape.height, shape.width};
 
-      // Parts of other results, and their concatenation.
+      // Take a part of another result.
     } else if (node.op_type() == "Slice") {
       const auto& in = integers_.at(node.input(0));
       const auto end_of = [&](int i) {

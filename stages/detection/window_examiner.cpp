@@ -1,3 +1,4 @@
+// Runs the second network on a window around a palm, and reads the detected hand from its output.
 #include "stages/detection/window_examiner.h"
 
 #include "stages/detection/networks.h"
@@ -28,7 +29,7 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
 /// into a right one; the network was trained with right hands.
 Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
                                                            bool mirrored) {
-  // Run the network on the window around the place.
+  // Run the network on the window.
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
@@ -64,8 +65,8 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
     if (!window) return tl::unexpected(window.error());
   }
 
-  // If the window still shows the other side, try the other mirroring, too. The average of the log odds decides the
-  // side, and the window of that side gives the joints.
+  // If the network finds again that the hand is of the side opposite to the mirroring, run it also on the window with
+  // the other mirroring. The average of the log odds decides the side, and the window for that side gives the joints.
   if (other_side() && window->hand.centre.z() > 0) {
     auto other = run_network(frame, window->hand.centre, !mirrored);
     if (!other) return tl::unexpected(other.error());

@@ -87,14 +87,14 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
     mask_.reset(0, 0);
   if (hands.size() > 1) remove_taken(*out);
 
-  // Compute what the tracker reads.
+  // Compute the maps that the tracker uses.
   describe_hand(*out);
   out->followed = out->hand_present && hand.followed;
   return out;
 }
 
-/// Removes pixels that an earlier hand of this frame has taken. A pixel near the cells of two hands belongs to the
-/// first.
+/// Removes pixels that belong to a hand processed before in this frame. A pixel near the cells of two hands belongs to
+/// the first one.
 void Preprocessor::remove_taken(const HandObservation& out) {
   for (int v = 0; v < mask_.height(); ++v)
     for (int u = 0; u < mask_.width(); ++u) {

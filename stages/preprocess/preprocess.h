@@ -51,7 +51,7 @@ class Preprocessor {
   ObservationPool pool_;
   CoarseGrid grid_;
   Image<std::uint8_t> edge_, mask_, object_;
-  Image<std::uint8_t> taken_;                      // pixels of the frame that its earlier hands have taken
+  Image<std::uint8_t> taken_;  // 1 at pixels of the frame that belong to a hand processed before in this frame
   std::vector<const CoarseHand*> training_hands_;  // tracked hands from which the skin model learns in this frame
   std::vector<Rgb> skin_colours_, other_colours_;
 };

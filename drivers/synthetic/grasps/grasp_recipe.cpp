@@ -52,7 +52,7 @@ GraspRecipe palm(std::vector<Fit> fits, const Vector3d& along, const Vector3d& a
   return recipe;
 }
 
-/// A grasp in which the thumb, or a finger, opposes fingers.
+/// A grasp that holds the object between the thumb, or a finger, and other fingers.
 GraspRecipe opposed(std::vector<Fit> fits, std::vector<Touch> first, std::vector<Touch> second, const Vector3d& along,
                     const HandAngles& comfortable, const HandAngles& opening) {
   GraspRecipe recipe;

@@ -68,7 +68,7 @@ bool CheckedSource::check_image(const FramePtr& frame) {
     return false;
   }
 
-  // Keep such an image of a recording, but report it.
+  // In a recording, keep such an image, but report it.
   if (fault == DepthFault::senseless)
     say("noise",
         formatted("the depth image of frame %lld is noise: neighbouring pixels are unrelated",
@@ -78,8 +78,8 @@ bool CheckedSource::check_image(const FramePtr& frame) {
   return true;
 }
 
-/// Reports a recording whose depth image stays the same. The noise of a sensor never
-/// repeats, so the sensor had stopped. In a simulated recording the hand may only rest: this is a notice, not an error.
+/// Reports a recording whose depth image stays the same. The noise of a sensor never repeats, so the sensor had
+/// stopped. In a simulated recording, however, the hand may just be at rest, so this is a notice, not an error.
 void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
   // A new image ends the time in which the depth was frozen.
   if (!still) {
@@ -91,7 +91,7 @@ void CheckedSource::check_stillness(const RgbdFrame& frame, bool still) {
     still_frames_ = 1;
   }
 
-  // Report the fault once it has lasted for several frames and some time.
+  // Report the frozen image once it has lasted for kStillFrames frames and for the time kStillFor.
   const std::int64_t lasting = std::abs(frame.utime - still_since_->utime);
   if (++still_frames_ < kStillFrames || lasting < kStillFor) return;
   say("still",

@@ -23,7 +23,7 @@ class DepthRange {
 
   /// Adds a frame. Returns a warning for the user, usually none.
   std::optional<std::string> add(const RgbdFrame& frame);
-  /// Call it when no more frames come. Returns a warning as `add` does.
+  /// Must be called after the last frame. Returns a warning for the user, if there is one, as add() does.
   std::optional<std::string> finish();
 
  private:

@@ -102,7 +102,7 @@ class Rasteriser {
       covered_b -= inside & nearest_b;
       covered_c -= inside & ~nearest_a & ~nearest_b;
 
-      // Render the depth and the vertex that carries each cell.
+      // Draw the inverse depth of each cell, and the vertex with the largest barycentric weight.
       const Lanes inverse_z = wa * a.z() + wb * b.z() + wc * c.z();
       const IntLanes carrier = nearest_a ? IntLanes{} + t[0] : (nearest_b ? IntLanes{} + t[1] : IntLanes{} + t[2]);
       put(i, j, inside, inverse_z, carrier);
@@ -152,7 +152,7 @@ class Rasteriser {
       std::memcpy(vertex, &old_vertex, size);
     };
 
-    // Touch only the bytes that are left in the image.
+    // Access only the bytes that are left in the image.
     bytes == sizeof(Lanes) ? blend(sizeof(Lanes)) : blend(bytes);  // a constant size compiles to a single instruction
   }
 

@@ -35,7 +35,8 @@ bool begins_as_log(const fs::path& path) {
          std::string_view(start.data(), start.size()) == "\xed\xa1\xda\x01";
 }
 
-/// The name that a draft will get; `path` itself if it is not the name of a draft.
+/// The name that an unfinished file (a draft of AtomicFile) gets when it is complete; `path` itself if it is not the
+/// name of a draft.
 fs::path final_name(const fs::path& path) {
   const std::string name = finished_name(path.string());
   return name.empty() ? path : fs::path(name);
@@ -62,7 +63,8 @@ std::vector<std::string> sorted(const std::vector<fs::path>& paths) {
   return files;
 }
 
-/// Why a log that still has its temporary name is not played. None if it is played, or if `path` has no such name.
+/// The reason why a log that still has its temporary name is not played. None if it is played, or if `path` is not a
+/// temporary name.
 std::optional<Error> why_left_out(const fs::path& path) {
   const fs::path name = final_name(path);
   std::error_code ignored;
@@ -73,7 +75,8 @@ std::optional<Error> why_left_out(const fs::path& path) {
   return std::nullopt;
 }
 
-/// The files of a folder that are not empty and for whose final names `wanted` is true.
+/// Lists the files of a folder that are not empty and whose names satisfy `wanted`. A draft counts under the name that
+/// it gets when it is complete.
 template <class Wanted>
 FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
   FoundLogs logs;
@@ -86,7 +89,7 @@ FoundLogs logs_in(const fs::path& folder, const Wanted& wanted) {
     std::error_code ignored;
     if (!entry->is_regular_file(ignored) || entry->file_size(ignored) == 0 || !wanted(final_name(path))) continue;
 
-    // Ignore drafts of other programs.
+    // Ignore drafts that are neither LCM logs nor MCAP files: another program may have written them.
     if (final_name(path) != path && !begins_as_log(path) && !mcap::is_mcap(path)) continue;
     if (auto reason = why_left_out(path))
       logs.left_out.push_back(std::move(*reason));

@@ -54,7 +54,7 @@ class McapWriter {
   struct Span {
     std::uint64_t first = 0, last = 0;  ///< times of the first and the last message [ns]
   };
-  using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< messages of each channel
+  using Index = std::map<std::uint16_t, std::vector<Stamp>>;  ///< entries of each channel, keyed by its id
 
   McapWriter(std::string path, AtomicFile file, int descriptor);
   std::uint16_t schema_of(const NewMessage& message);

@@ -30,12 +30,12 @@ constexpr std::array kUnits = {NamedUnit{LengthUnit::metre, "m", 1}, NamedUnit{L
 const NamedUnit& named(LengthUnit unit) { return kUnits[static_cast<std::size_t>(unit)]; }
 
 constexpr double kSmallest = 0.01, kLargest = 1.0;  // longest side of what a hand can hold and be tracked with [m]
-constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // the same for most objects [m]
+constexpr double kUsualSmallest = 0.02, kUsualLargest = 0.5;  // longest side of most of these objects [m]
 constexpr double kFarthest = 10;  // largest distance from the file's origin [m]: single precision is too coarse beyond
 constexpr std::size_t kMostTriangles = 500'000;
-constexpr int kDeepestJson = 100;  // levels; assimp's parser calls itself for each one, until the stack is full
+constexpr int kDeepestJson = 100;  // most levels of nested JSON; assimp recurses at each and could overflow the stack
 
-/// A length that people can read.
+/// A length as text, in metres or millimetres.
 std::string readable(double metres) {
   if (metres >= 1) return formatted("%.3g m", metres);
   return formatted("%.3g mm", 1000 * metres);
@@ -64,7 +64,7 @@ bool has_sound_faces(const aiScene& scene) {
   return true;
 }
 
-/// Adds the triangles of one mesh of the file; lines and points are left out.
+/// Adds the triangles of one mesh of the file, without its lines and points.
 void append(const aiMesh& part, double scale, ObjectMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned v = 0; v < part.mNumVertices; ++v) {
@@ -118,7 +118,7 @@ Result<LengthUnit> unit_from(const std::string& name) {
 }
 
 Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
-  // Check the file itself, for which assimp has no words.
+  // Check the file itself, since assimp does not explain these errors.
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     return fail("there is no such file", path, "give the mesh of the object (OBJ, PLY, STL or glTF)");
@@ -132,7 +132,7 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
     return fail(formatted("has more than %d levels of nested JSON", kDeepestJson), path,
                 "export the object's mesh again");
 
-  // Read it; the parts of a scene are placed as its nodes say.
+  // Read the file, and place the parts of a scene by the transforms of its nodes.
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene && !has_sound_faces(*scene))
@@ -149,7 +149,7 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
   mesh.name = std::filesystem::path(path).stem().string();
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], named(unit).length, mesh);
 
-  // Check what it holds.
+  // Check the triangles and the vertices.
   if (mesh.triangles.empty())
     return fail("holds no triangles", path, "export the object's surface as triangles, not as points or lines");
   if (mesh.triangles.size() > kMostTriangles)

@@ -36,7 +36,7 @@ std::string side_of(const hand_state_t& state);
 JointState joint_state(const HandState& hand);
 /// Adds the transform from every segment's frame to the camera's frame.
 void add_transforms(const HandState& hand, TFMessage& message);
-/// From the frame "object_ID" of an object to the camera's.
+/// Adds the transform from an object's frame, "object_ID", to the camera's frame.
 void add_transform(const object_state_t& object, TFMessage& message);
 /// The hand as spheres at its joints and cylinders between them, coloured by confidence from red to green and
 /// translucent if inferred, and ellipsoids of two standard deviations at the proximal ends of the segments. Without a

@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostSubscriptions = 256;  // of one client; there are about a dozen topics
+constexpr std::size_t kMostSubscriptions = 256;  // subscriptions of one client; there are about a dozen topics
 constexpr int kJpegQuality = 85;                 // lossy, since viewers only display the colour
 
 /// JSON as text. Strings that are not UTF-8, such as parts of a client's message, are repaired.
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The scene of a frame, whose content must outlive it.
+/// The ROS scene of a frame. `content` must outlive the scene.
 ros::Scene scene_of(const ViewFrame::Content& content) {
   ros::Scene scene;
   scene.utime = content.utime;
@@ -55,7 +55,7 @@ void FoxgloveClient::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-/// Adds and removes subscriptions; answers each one that is not possible.
+/// Adds and removes subscriptions. Answers each request that cannot be fulfilled with an error.
 void FoxgloveClient::execute(const FoxgloveRequest& request) {
   for (const auto& [id, channel] : request.subscribe) {
     const std::string name = "Subscription " + std::to_string(id);
@@ -73,7 +73,7 @@ void FoxgloveClient::execute(const FoxgloveRequest& request) {
     if (next_.subscriptions.erase(id) == 0) refuse("Subscription " + std::to_string(id) + " does not exist.");
 }
 
-/// Tells the viewer that a request of it was not followed.
+/// Sends the viewer an error status that says why its request was not fulfilled.
 void FoxgloveClient::refuse(const std::string& why) {
   constexpr int kError = 2;  // level of a status
   replies_.add(text_of({{"op", "status"}, {"level", kError}, {"message", why}}));
@@ -139,19 +139,19 @@ bool FoxgloveClient::send(const Due& due) {
     if (!socket_.send_text(reply)) return false;
   if (due.frame && !send_frame(due)) return false;
   if (due.farewell) socket_.ask_to_close(*due.farewell);
-  return !due.farewell;  // nothing may follow it
+  return !due.farewell;  // nothing may be sent after a request to close
 }
 
 bool FoxgloveClient::send_frame(const Due& due) {
   const auto time = ros::time_of(due.frame->content().utime);
   if (!time) return true;
 
-  // Tell the client of topics that are new.
+  // Advertise the topics that are new to the viewer.
   const ros::Scene scene = scene_of(due.frame->content());
   const std::vector<ros::Topic> topics = ros::topics_of(scene);
   if (!advertise(topics)) return false;
 
-  // Encode each topic once if anyone has subscribed to it, and send it.
+  // Encode each topic to which the viewer has subscribed, once, and send it.
   for (const ros::Topic& topic : topics) {
     const std::uint32_t channel = channels_.at(topic.name);
     ros::Bytes message;
@@ -181,7 +181,7 @@ bool FoxgloveClient::advertise(const std::vector<ros::Topic>& topics) {
   }
   if (channels.empty()) return true;
 
-  // Know the channels before the viewer does, which may subscribe at once.
+  // Count the new channels before they are advertised, since the viewer may subscribe to them at once.
   {
     const std::lock_guard lock(mutex_);
     advertised_ = static_cast<std::uint32_t>(channels_.size());

@@ -39,8 +39,8 @@ class ViewClient : public WebPeer {
   /// dropped.
   void post(ViewFramePtr frame);
   void post_status(StatusText status);
-  /// Sends what still waits, whether or not the client acknowledges it, and then asks the client to close the
-  /// connection. Returns at once.
+  /// Sends the data that are waiting, whether or not the client acknowledges them, and then asks the client to close
+  /// the connection. Returns at once.
   void end(const Farewell& farewell);
   /// Whether the last status has been sent, or the connection is broken so that nothing can be sent.
   bool is_told() const;
@@ -72,7 +72,7 @@ class ViewClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // data to be sent next, except for the frame and the replies, which the next two hold
+  Due next_;  // data to be sent next, without the frame and the replies, which are in frames_ and replies_
   NewestFrame frames_;
   Replies replies_;
   int under_way_ = 0;            // number of frames that were sent and not acknowledged yet

@@ -29,7 +29,8 @@ class ViewServer {
   };
   /// `clock` must outlive the server. Errors: the port is taken, the page's files are missing.
   static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);
-  /// Sends every client what still waits and the farewell. Waits up to a second until they have left.
+  /// Sends every client the data that are waiting for it, and a request to close the connection (Farewell). Waits up to
+  /// a second until all clients have disconnected.
   ~ViewServer();
 
   std::string url() const { return web_->url(); }
@@ -45,7 +46,8 @@ class ViewServer {
   void show_status(std::string json);
   /// Waits until the last status has been sent to every client that reads, but no longer than `patience`.
   void flush(std::chrono::milliseconds patience) const;
-  /// Sets why connections are closed when the server is destroyed. The default says that the program was stopped.
+  /// Sets the reason that clients get for the closed connection when the server is destroyed. The default says that the
+  /// program was stopped.
   void set_farewell(Farewell farewell) { farewell_ = std::move(farewell); }
   /// Counts the frames for all clients together since the start. The capacity is one frame per client.
   QueueHealth health() const;

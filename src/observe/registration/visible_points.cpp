@@ -44,7 +44,7 @@ void VisiblePoints::remove_hidden(const Intrinsics& camera) {
   // Points almost in the camera plane would need a huge buffer, so such an implausible pose is not tested.
   if (((hi - lo) > 2000).any()) return;
 
-  // Keep the least depth of each cell.
+  // Prepare a z-buffer, which holds the least depth of each cell.
   front_.reset(static_cast<int>(hi.x() - lo.x()) + 1, static_cast<int>(hi.y() - lo.y()) + 1,
                std::numeric_limits<float>::max());
   const auto cell = [&](const Facing& f) -> float& {
@@ -52,7 +52,7 @@ void VisiblePoints::remove_hidden(const Intrinsics& camera) {
     return front_.at(static_cast<int>(uv.x()), static_cast<int>(uv.y()));
   };
 
-  // Remove the points that lie clearly behind it.
+  // Fill it, and remove the points that lie clearly behind the front-most point of their cell.
   for (const Facing& f : facing_) cell(f) = std::min(cell(f), static_cast<float>(f.point.p.z()));
   std::erase_if(facing_, [&](const Facing& f) { return f.point.p.z() > cell(f) + kBehind; });
 }

@@ -25,7 +25,7 @@ class Flood {
     for (std::vector<Step>& bucket : buckets_) bucket.clear();
     heads_.fill(0);
 
-    // Begin with the open pixels beside decided ones.
+    // Begin with the open pixels next to decided ones.
     for (std::size_t i = 0; i < evidence.size(); ++i)
       if (evidence[i] == Evidence::open)
         for_neighbours(evidence, static_cast<std::int32_t>(i), [&](std::int32_t j) {
@@ -33,7 +33,7 @@ class Flood {
             push(static_cast<std::int32_t>(i), evidence[j], colour[i], colour[j]);
         });
 
-    // Decide the pixel that is most similar to its neighbour next.
+    // Next, decide the open pixel that is most similar to a decided neighbour.
     for (int level = 0; level < kLevels;) {
       if (heads_[level] == buckets_[level].size()) {
         ++level;
@@ -43,7 +43,7 @@ class Flood {
       if (evidence[step.pixel] != Evidence::open) continue;
       evidence[step.pixel] = step.evidence;
 
-      // Let its neighbours follow, which may be more similar still.
+      // Queue its open neighbours, which may be even more similar.
       for_neighbours(evidence, step.pixel, [&](std::int32_t j) {
         if (evidence[j] == Evidence::open && joined(step.pixel, j))
           level = std::min(level, push(j, step.evidence, colour[step.pixel], colour[j]));
@@ -54,7 +54,7 @@ class Flood {
  private:
   static constexpr int kLevels = 12;       // levels of similarity, from equal to most different
   static constexpr int kLevelWidth = 6;    // range of colour differences in one level, in units of an 8-bit channel
-  static constexpr int kUnknownLevel = 6;  // level of two neighbours of which one has no colour
+  static constexpr int kUnknownLevel = 6;  // level of similarity of two neighbours if one has no colour
   struct Step {
     std::int32_t pixel;
     Evidence evidence;
