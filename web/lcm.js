@@ -22,7 +22,7 @@ class Reader {
   }
 }
 
-// What `fields`, a function of a Reader, reads from a message of this type.
+// Decodes a message of this type with `fields`, a function that reads the fields from a Reader.
 function decode(type, view, fields) {
   if (view.byteLength < 8 || view.getBigUint64(0) !== kFingerprints[type])
     throw new TypeError(`it is no ${type} of this version`);

@@ -16,7 +16,8 @@ function handOf(glove, state) {
 }
 
 // Calls onHands(list of hands) for every frame, and onNews(sentence, "" where all is well) when the connection or what the
-// tracker says of itself changes. Connects again when the server comes back. Returns a function that ends it.
+// tracker says of itself changes. Connects again when the server comes back, unless it said that a recording is over. Returns a
+// function that ends it.
 // `url`: such as "ws://localhost:8765/live".
 export function connect(url, onHands, onNews) {
   let trouble = "", leftOut = "";  // what the tracker says, and what is wrong with its messages

@@ -262,6 +262,12 @@ class Trouble(Page):
         # The page does not try to connect again, which the console would show within a second.
         self.browser.value("new Promise((done) => setTimeout(done, 1500))")
 
+    def test_the_end_of_a_live_source_is_said(self):
+        program = self.track(f"sim:grasp_ball,{SMALL},live=true,frames=300")
+        self.browser.open(program.url)
+        self.wait_for(f"{text('notice')}.startsWith('The simulation has ended; ') && {text('connection')} === 'ended'")
+        self.assertEqual(program.process.wait(LONG), 0)
+
     def test_a_program_without_a_place_for_the_page_says_so(self):
         program = self.track(HAND)
         others = [socket.create_connection(("localhost", int(program.port))) for _ in range(32)]

@@ -178,9 +178,11 @@ TEST(WebServer, SaysThatThePortIsTaken) {
   const auto server = serve();
   WebServer::Options options;
   options.port = server->port();
+  options.port_option = "--door PORT";
   const auto second = WebServer::start(std::move(options));
   ASSERT_FALSE(second);
   EXPECT_NE(second.error().message().find(std::to_string(server->port())), std::string::npos);
+  EXPECT_TRUE(second.error().remedy.ends_with("give --door PORT")) << second.error().message();
 }
 
 TEST(WebAddress, IsAPortOrAnAddressAndAPort) {

@@ -50,18 +50,18 @@ def main():
     with Chromium(300) as browser, tempfile.TemporaryDirectory() as folder:
         browser.size(1200, 800)
 
-        # Live, when ten seconds of motion fill the plots.
+        # Show live tracking; wait until ten seconds of motion fill the plots.
         with Page(browser, "track", "--source", "sim:grasp_ball,live=true,loop=true", "--no-publish", "--view=0"):
             browser.wait_for("performance.now() > 12000")
             save(browser, "view.jpg")
 
-        # A calibration, when a part of the hand was shown.
+        # Show a calibration in which part of the hand was seen.
         browser.theme("dark")
         with Page(browser, "calibrate", "--source", "sim:scan,live=true", "--out", f"{folder}/hand.json", "--view=0"):
             browser.wait_for("document.querySelectorAll('#scan .cell.complete').length >= 3")
             save(browser, "view_calibration.jpg")
 
-        # A log with frames without a hand.
+        # Show a log that has frames without a hand.
         browser.theme("light")
         browser.size(1200, 640)
         scene = "sim:returns,speed=2,frames=240"

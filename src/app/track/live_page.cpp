@@ -18,11 +18,8 @@ Result<std::unique_ptr<LivePage>> LivePage::open(const TrackOptions& options, st
   if (!options.view_record.empty())
     page->recorder_ =
         std::make_unique<LogRecorder>(LogRecorder::Options{options.view_record}, std::move(log), page->clock_);
-  auto server = ViewServer::start({*address, options.view_origins, {}, page->recorder()}, page->clock_);
-  if (!server) {
-    server.error().remedy += " with --view=PORT";
-    return tl::unexpected(server.error());
-  }
+  auto server = ViewServer::start({*address, options.view_origins, {}, page->recorder(), "--view=PORT"}, page->clock_);
+  if (!server) return tl::unexpected(server.error());
   page->server_ = std::move(*server);
   return page;
 }

@@ -97,7 +97,7 @@ class TrackRun {
     return (input_.fps > 0 ? input_.fps : unknown) / std::abs(static_cast<double>(options_.step));
   }
   PipelineHealth with_view(PipelineHealth health) const;
-  Farewell end_of_recording(const RunResult& result) const;
+  Farewell farewell(const RunResult& result) const;
   int conclude(const RunResult& result);
   int exit_code_of_frames(const PipelineHealth& health);
 
@@ -435,17 +435,20 @@ TrackOutcome TrackRun::run() {
   const std::int64_t start = clock_.steady_us();
   const RunResult result = pipeline_->run();
   const double seconds = static_cast<double>(clock_.steady_us() - start) * 1e-6;
-  if (page_ && !input_.source->live()) page_->server().set_farewell(end_of_recording(result));
+  if (page_) page_->server().set_farewell(farewell(result));
   return {with_view(result.health), progress_->counts(), seconds, result.stopped, conclude(result), std::move(page_)};
 }
 
-/// What the live page says when a recording or a simulation was tracked.
-Farewell TrackRun::end_of_recording(const RunResult& result) const {
-  if (result.error) return {Farewell::kDone, "Tracking has ended with an error, which the program's output names."};
-  const std::string what = options_.source.starts_with("sim:") ? "simulation" : "recording";
-  if (result.stopped) return {Farewell::kDone, "Barehand was stopped before the end of the " + what + "."};
-  const std::string frames = std::to_string(result.health.published);
-  return {Farewell::kDone, "The " + what + " has ended; " + frames + " frames were tracked."};
+/// What the live page says at the end. A live run that was stopped or failed may be started again.
+Farewell TrackRun::farewell(const RunResult& result) const {
+  const bool live = input_.source->live();
+  const int code = live ? Farewell::kStopped : Farewell::kDone;
+  const std::string frames = options_.source.starts_with("sim:") ? "simulation" : live ? "source" : "recording";
+  if (result.error) return {code, "Tracking has ended with an error, which the program's output names."};
+  if (result.stopped)
+    return live ? Farewell() : Farewell{code, "Barehand was stopped before the end of the " + frames + "."};
+  return {Farewell::kDone,
+          "The " + frames + " has ended; " + std::to_string(result.health.published) + " frames were tracked."};
 }
 
 int TrackRun::conclude(const RunResult& result) {

@@ -22,6 +22,8 @@
 namespace barehand {
 namespace {
 
+constexpr const char* kPortOption = "--port PORT";
+
 /// A profile for each side: the one given by the user, or the mean adult hand.
 Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   std::array<std::shared_ptr<const HandProfile>, 2> profiles;
@@ -120,13 +122,6 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
   }
 }
 
-/// ViewServer::start() with errors that name the option of this command.
-Result<std::unique_ptr<ViewServer>> start_server(ViewServer::Options options, const Clock& clock) {
-  auto server = ViewServer::start(std::move(options), clock);
-  if (!server) server.error().remedy += " with --port PORT";
-  return server;
-}
-
 int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto index = LogIndex::open(options.logs);
   if (!index) return failed("view", index.error(), kExitUsage);
@@ -135,8 +130,8 @@ int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown
   for (const std::string& log : options.logs) name.append(name.empty() ? "log:" : ", ").append(log);
   const SystemClock clock;
   LogShow show(std::move(*index), name, std::move(shown), clock);
-  auto server =
-      start_server({address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr}, clock);
+  auto server = ViewServer::start(
+      {address, options.origins, [&](const PlayerCommand& c) { show.follow(c); }, nullptr, kPortOption}, clock);
   if (!server) return failed("view", server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see the log; Ctrl-C ends\n";
   show.run(**server, stop);
@@ -151,7 +146,7 @@ int view_network(const ViewOptions& options, const WebAddress& address, Shown sh
   std::unique_ptr<LogRecorder> recorder;
   if (!options.record.empty())
     recorder = std::make_unique<LogRecorder>(LogRecorder::Options{options.record, kWaiting}, make_logger(), clock);
-  auto server = start_server({address, options.origins, {}, recorder.get()}, clock);
+  auto server = ViewServer::start({address, options.origins, {}, recorder.get(), kPortOption}, clock);
   if (!server) return failed("view", server.error(), kExitFailure);
   std::cerr << "open " << (*server)->url() << " in a browser to see what comes on " << (*bus)->url()
             << "; Ctrl-C ends\n";

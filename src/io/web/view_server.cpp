@@ -19,6 +19,7 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   WebServer::Options web;
   web.address = options.address.address;
   web.port = options.address.port;
+  web.port_option = options.port_option;
   web.allowed_origins = std::move(options.allowed_origins);
   web.files = std::move(*page);
 

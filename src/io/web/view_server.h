@@ -26,6 +26,7 @@ class ViewServer {
     std::function<void(const PlayerCommand&)> on_command;
     /// The recorder that clients start and stop; must outlive the server. Null: nothing can be recorded.
     LogRecorder* recorder = nullptr;
+    const char* port_option = "another port";  ///< as in WebServer::Options
   };
   /// `clock` must outlive the server. Errors: the port is taken, the page's files are missing.
   static Result<std::unique_ptr<ViewServer>> start(Options options, const Clock& clock);

@@ -131,8 +131,9 @@ Result<int> WebServer::Impl::start() {
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
   context_ = mg_start(&callbacks, this, settings);
   if (!context_)
-    return fail("cannot listen on " + port, "live page",
-                "another program may have the port, or the address is not this machine's; give another one");
+    return fail(
+        "cannot listen on " + port, "live page",
+        "another program may have the port, or the address is not this machine's; give " + options_.port_option);
 
   // Set the handlers.
   mg_set_request_handler(context_, "**", on_request, this);

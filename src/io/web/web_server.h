@@ -72,6 +72,7 @@ class WebServer {
   struct Options {
     std::string address = "127.0.0.1";         ///< address of the network interface; 0.0.0.0: all interfaces
     int port = 0;                              ///< TCP port; 0: any free port
+    std::string port_option = "another port";  ///< what the user gives instead if the port is taken: "--view=PORT"
     std::map<std::string, WebFile> files;      ///< by path, such as "/index.html", which is also served as "/"
     std::vector<std::string> allowed_origins;  ///< origins of other web pages that may connect
     std::string socket_path = "/live";
