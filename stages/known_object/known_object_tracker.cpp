@@ -196,7 +196,7 @@ std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, co
   if (!found) state.velocity = hypotheses_.front().velocity;
   state.covariance = hypotheses_.front().covariance;
   state.extent = object_->extent;
-  holding_.update(utime, estimates, state);
+  holding_.update(utime, estimates, object_->centre, state);
   return state;
 }
 

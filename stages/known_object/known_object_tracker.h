@@ -5,9 +5,9 @@
 #include <span>
 
 #include "hand/contacts.h"
+#include "hand/grasps/holding.h"
 #include "hand/hand_pose.h"
 #include "object/known_object.h"
-#include "stages/known_object/holding.h"
 #include "stages/known_object/object_fit.h"
 #include "stages/known_object/object_search.h"
 #include "stages/known_object/observed_depth.h"
