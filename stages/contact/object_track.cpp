@@ -1,15 +1,10 @@
 #include "stages/contact/object_track.h"
 
-#include <limits>
-
 namespace barehand {
 namespace {
 
 using Eigen::Vector3d, Eigen::Vector3f;
 
-// A palm holds the object once it has moved by kCarried while the object stayed within kFirm of its place in the palm,
-// until the object is farther than kLeft from this place [m].
-constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 constexpr int kGrip = 3;                // segments that touch an object which probably moves with the hand
 constexpr double kPreference = 0.0005;  // advantage in misfit with which the less probable motion is preferred [m]
 constexpr double kDoubtful = 0.25;      // contradiction of a pose from which on nothing is added to the model
@@ -23,12 +18,10 @@ void ObjectTrack::predict(const HandEstimates& estimates, const ObservedSpace& s
   placed = false;
   predicted = state.T_camera_object;
   if (!modelled()) return;
-  for (const HandEstimatePtr& estimate : estimates) {
-    if (estimate->status != TrackStatus::tracking || estimate->hand_id != hand_) continue;
-    const SE3 carried = estimate->segments[kPalm].T_camera_segment * T_palm_object_;
-    const double gain = model.misfit(state.T_camera_object, all, space) - model.misfit(carried, all, space);
-    if (gain > (state.held || touches >= kGrip ? -kPreference : kPreference)) predicted = carried;
-  }
+  const auto carried = holding_.carried(estimates);
+  if (!carried) return;
+  const double gain = model.misfit(state.T_camera_object, all, space) - model.misfit(*carried, all, space);
+  if (gain > (state.held || touches >= kGrip ? -kPreference : kPreference)) predicted = *carried;
 }
 
 void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates& estimates,
@@ -38,7 +31,8 @@ void ObjectTrack::update(std::int64_t utime, double elapsed, const HandEstimates
     state.T_camera_object = predicted;
   else
     place(elapsed, space);
-  hold(utime, estimates);
+  if (!open) holding_.update(utime, estimates, Vector3d::Zero(), state);
+  points.clear();  // they live no longer than the frame
 }
 
 /// Updates the pose from the points of this frame, and the model.
@@ -80,46 +74,6 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     lower = model.bounds()[0], upper = model.bounds()[1];
   }
   state.extent = (upper - lower).cast<double>();
-}
-
-/// States whether the nearest palm holds it.
-void ObjectTrack::hold(std::int64_t utime, const HandEstimates& estimates) {
-  // Find the tracked hand whose palm is nearest.
-  const HandEstimate* nearest = nullptr;
-  for (const HandEstimatePtr& estimate : estimates) {
-    if (estimate->status != TrackStatus::tracking) continue;
-    const auto distance = [&](const HandEstimate& hand) {
-      return (hand.segments[kPalm].T_camera_segment.t - state.T_camera_object.t).norm();
-    };
-    if (!nearest || distance(*estimate) < distance(*nearest)) nearest = estimate.get();
-  }
-
-  // Compare the object's place in the palm with its place before.
-  bool held = false;
-  hand_ = -1;
-  if (nearest && !open) {
-    const SE3& T_camera_palm = nearest->segments[kPalm].T_camera_segment;
-    hand_ = nearest->hand_id;
-    T_palm_object_ = T_camera_palm.inverse() * state.T_camera_object;
-
-    // Start the comparison again with another palm, or if the object has left its place in the palm.
-    const double left =
-        compared_hand_ == hand_ ? (T_palm_object_.t - in_palm_).norm() : std::numeric_limits<double>::infinity();
-    if (left > (state.held ? kLeft : kFirm)) {
-      compared_hand_ = hand_;
-      in_palm_ = T_palm_object_.t;
-      palm_ = T_camera_palm.t;
-    }
-
-    // An object is held once it was carried, until it leaves the palm.
-    held = state.held ? left < kLeft : left < kFirm && (T_camera_palm.t - palm_).norm() > kCarried;
-  } else {
-    compared_hand_ = -1;
-  }
-
-  if (held != state.held) state.since = utime;
-  state.held = held;
-  state.hand_id = held ? compared_hand_ : -1;
 }
 
 }  // namespace barehand

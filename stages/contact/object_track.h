@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hand/contacts.h"
+#include "hand/grasps/holding.h"
 #include "hand/hand_pose.h"
 #include "stages/contact/object_model.h"
 
@@ -13,8 +14,8 @@ namespace barehand {
 /// assign the object's points, then call update().
 struct ObjectTrack {
   ObjectEstimate state;
-  ObjectModel model;                        ///< empty while the object is open
-  std::vector<const SurfacePoint*> points;  ///< its points in this frame
+  ObjectModel model;                        ///< of nothing while the object is open
+  std::vector<const SurfacePoint*> points;  ///< its points in this frame; empty after update()
   SE3 predicted;                            ///< T_camera_object in this frame
   Eigen::Vector3d centre;                   ///< centre of the points that were seen last, camera frame [m]
   bool open = false;                        ///< it continues out of view, as a table does: it has no model
@@ -32,12 +33,8 @@ struct ObjectTrack {
 
  private:
   void place(double elapsed, const ObservedSpace& space);
-  void hold(std::int64_t utime, const HandEstimates& estimates);
 
-  std::int32_t hand_ = -1;           // hand_id of the nearest palm in the last frame; -1: none
-  SE3 T_palm_object_;                // relative to that palm
-  Eigen::Vector3d in_palm_, palm_;   // place relative to the palm, and place of the palm, when both were first compared
-  std::int32_t compared_hand_ = -1;  // hand_id of that palm; -1: none
+  Holding holding_;
 };
 
 }  // namespace barehand

@@ -173,8 +173,7 @@ void ObjectTracker::merge(std::int64_t utime) {
       // Keep the older identifier and forget the model of the track that was not seen.
       ObjectTrack& other = tracks_[owner_[i]];
       if (track.state.id < other.state.id) std::swap(track.state.id, other.state.id);
-      track.model = ObjectModel();
-      track.state.held = false;
+      track = ObjectTrack();
       track.seen = utime - kForgotten - 1;
       break;
     }

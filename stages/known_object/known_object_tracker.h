@@ -5,9 +5,9 @@
 #include <span>
 
 #include "hand/contacts.h"
+#include "hand/grasps/holding.h"
 #include "hand/hand_pose.h"
 #include "object/known_object.h"
-#include "stages/known_object/holding.h"
 #include "stages/known_object/object_fit.h"
 #include "stages/known_object/object_search.h"
 #include "stages/known_object/observed_depth.h"
@@ -15,8 +15,9 @@
 namespace barehand {
 
 /// Tracks one known object. The pose is predicted from its velocity and from the palms, and refined on the depth near
-/// the prediction; since the search starts from there, a symmetric object does not jump. When the fit is bad or too
-/// little shows, there is no pose, and every few frames the object is searched for.
+/// the prediction; since the refinement starts from there, a symmetric object does not jump. When the fit is bad or too
+/// little shows, there is no pose, and every few frames the object is searched for. Where a search finds several poses,
+/// all are followed, until the frames have shown which one is right.
 class KnownObjectTracker {
  public:
   explicit KnownObjectTracker(KnownObjectPtr object) : object_(std::move(object)) {}
@@ -28,25 +29,35 @@ class KnownObjectTracker {
   const KnownObjectPtr& object() const { return object_; }
 
  private:
-  /// A pose that the object may have now, and how far it may be off.
+  /// A pose that the object may have, from frame to frame.
+  struct Hypothesis {
+    SE3 T;  // in the frame before; predicted if it was not seen there
+    Vector6d velocity = Vector6d::Zero();
+    Matrix6d covariance;
+    double misfit = 0;  // negative logarithm of the likelihood of the frames so far
+    bool seen = false;  // in this frame
+  };
+  /// A pose that follows from a hypothesis, and how far it may be off.
   struct Prediction {
     SE3 T;
     double shift = 0, turn = 0;  // standard deviations [m], [rad]
   };
-  std::vector<Prediction> predictions(double dt, const HandEstimates& estimates) const;
+  void predict(const Hypothesis& hypothesis, double dt, const HandEstimates& estimates);
   bool follow(double dt, const ObservedDepth& view, const HandEstimates& estimates,
               std::span<const Eigen::Vector3f> points);
+  void refine(Hypothesis& hypothesis, double dt, const ObservedDepth& view, std::span<const Eigen::Vector3f> points);
+  void compare(const ObservedDepth& view);
   bool find(const ObservedDepth& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
   void store_palms(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;
   ObjectSearch search_;
   Holding holding_;
-  std::optional<SE3> T_;  // T_camera_object in the previous frame; predicted if the object was not seen there
-  Vector6d velocity_ = Vector6d::Zero();
-  Matrix6d covariance_ = Matrix6d::Identity();
-  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the previous frame
-  std::int64_t utime_ = 0, seen_ = 0;  // times of the previous frame and of the last one that showed the object [us]
+  std::vector<Hypothesis> hypotheses_;  // the first one is stated; empty: it was not seen for long
+  std::vector<Prediction> predictions_;
+  std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the frame before
+  std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
+  int compared_ = 0;                   // frames in which the hypotheses were compared
   int wait_ = 0, searches_ = 0;        // frames until the next search; searches so far
   std::vector<Eigen::Vector3f> points_;
 };

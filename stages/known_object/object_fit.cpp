@@ -13,8 +13,7 @@ using Eigen::Vector3d;
 constexpr double kTogether = 6;     // k: neighbouring points that count as one
 constexpr double kAway = 0.1;       // least cosine between the line of sight and the normal of a visible surface
 constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
-constexpr double kLeastTurn = 0.3;  // information about every rotation, as from a standard deviation of 1.8 rad
-constexpr double kCoarse = 6;       // factor on the scale of outliers in the first iteration
+constexpr double kLeastTurn = 0.3;  // information about a rotation that nothing shows, as if it were known to 1.8 rad
 
 }  // namespace
 
@@ -29,15 +28,15 @@ SurfaceResidual surface_residual(const DistanceGrid& grid, const SE3& T, const E
 }
 
 FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> points, double sigma, const SE3& start,
-                    const PosePrior& prior, int iterations) {
+                    const PosePrior& prior, int iterations, double coarse) {
   FittedPose fitted{start, Matrix6d::Identity()};
   SE3& T = fitted.T_camera_object;
   const double unit = 1 / (kTogether * sigma * sigma);
   Matrix6d information = prior.information;
   for (int i = 0; i < iterations; ++i) {
-    // Begin with the prior. The first iterations accept larger errors.
-    const double coarse = std::max(1.0, kCoarse * (1 - 2.0 * i / iterations));
-    const double scale_sq = 4 * sigma * sigma * coarse * coarse;
+    // Begin with the prior. Iterations at the start see farther.
+    const double wider = std::max(1.0, coarse * (1 - 2.0 * i / iterations));
+    const double scale_sq = 4 * sigma * sigma * wider * wider;
     information = prior.information;
     information.diagonal().tail<3>().array() += kLeastTurn;
     Vector6d force = -prior.information * boxminus(T, prior.T_camera_object);
@@ -56,7 +55,7 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
     const Vector6d step = information.ldlt().solve(force);
     if (!step.allFinite()) break;
     T = boxplus(T, step);
-    if (step.norm() < kStep && coarse == 1) break;
+    if (step.norm() < kStep && wider == 1) break;
   }
 
   // Return the pose with a proper rotation, and its covariance.

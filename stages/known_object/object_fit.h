@@ -32,9 +32,10 @@ struct FittedPose {
 ///     E(T) = sum rho(d(T^-1 p_i)) / (k sigma^2) + prior,  rho(r) = r^2 s^2 / (s^2 + r^2)  (Geman and McClure)
 ///
 /// d is the signed distance, and s = 2 sigma. Neighbouring points err together, so that k of them count as one.
-/// Points whose nearest surface faces away from the camera are ignored. Start from a pose that is off by no more than
-/// about 20 degrees and 20 mm.
+/// Points whose nearest surface faces away from the camera count nothing. In the first half of the iterations s is up
+/// to `coarse` times as large: with 6, start from a pose that is off by no more than about 20 degrees and 20 mm; with
+/// 1, by no more than a few millimetres, and other things nearby disturb little.
 FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> points, double sigma, const SE3& start,
-                    const PosePrior& prior, int iterations);
+                    const PosePrior& prior, int iterations, double coarse = 6);
 
 }  // namespace barehand

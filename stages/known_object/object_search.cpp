@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/angles.h"
+#include "object/half_turns.h"
 #include "stages/known_object/object_fit.h"
 
 namespace barehand {
@@ -22,8 +24,11 @@ constexpr int kFewIterations = 6, kIterations = 12;
 constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
 constexpr double kOnSurface = 0.006, kReach = 0.015;
 constexpr std::size_t kSamples = 300;
-constexpr double kLeastShown = 0.2, kMaxInconsistent = 0.15, kLeastExplained = 0.65;
+constexpr double kLeastShown = 0.2, kMaxInconsistent = 0.1, kLeastExplained = 0.65;
 constexpr int kLeastSeen = 15;
+// Two poses are the same if they are turned by less than kSmallTurn from each other, or if less than kFewMoved of the
+// surface moves by more than kMoved [m].
+constexpr double kSmallTurn = 20 * kDegree, kMoved = 0.004, kFewMoved = 0.02;
 
 /// Orientations that cover all rotations evenly (super-Fibonacci spirals, Alexa 2022).
 std::vector<Eigen::Matrix3d> spiral(int count) {
@@ -47,7 +52,23 @@ PosePrior anywhere_near(const SE3& T) {
   return prior;
 }
 
+/// Whether a motion is a small turn, or leaves the surface where it is, as a turn of a bottle about its axis does.
+bool changes_little(const KnownObject& object, const SE3& T_object_object) {
+  if (log_so3(T_object_object.R).norm() < kSmallTurn) return true;
+  const Eigen::Matrix3f R = T_object_object.R.cast<float>();
+  const Vector3f t = T_object_object.t.cast<float>();
+  const auto samples = std::span(object.samples).first(std::min(kSamples, object.samples.size()));
+  const auto moved = std::ranges::count_if(
+      samples, [&](const SurfaceSample& sample) { return std::abs(object.grid.distance(R * sample.p + t)) > kMoved; });
+  return static_cast<double>(moved) < kFewMoved * static_cast<double>(samples.size());
+}
+
 }  // namespace
+
+bool PoseQuality::acceptable() const {
+  return visibility.shown() >= kLeastShown && visibility.seen >= kLeastSeen &&
+         visibility.inconsistent() <= kMaxInconsistent && explained >= kLeastExplained;
+}
 
 PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, const SE3& T_camera_object,
                        std::span<const Vector3f> points) {
@@ -124,10 +145,20 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
   return middle;
 }
 
-std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const ObservedDepth& view,
-                                              std::span<const Vector3f> points, const Vector3f& seed) {
+/// Refines a pose, and appends it to found_ if it is acceptable.
+void ObjectSearch::refine(const KnownObject& object, const ObservedDepth& view, std::span<const Vector3f> points,
+                          const SE3& start) {
+  near_.assign(few_.begin(), few_.end());
+  view.points_near(object, start, kReach, 4 * kFew, near_);
+  const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kIterations).T_camera_object;
+  const FoundPose pose{T, quality_of(object, view, T, points)};
+  if (pose.quality.acceptable()) found_.push_back(pose);
+}
+
+std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const ObservedDepth& view,
+                                                std::span<const Vector3f> points, const Vector3f& seed) {
   const Vector3d middle = gather(object, points, seed).cast<double>();
-  if (around_.size() < kLeastPoints) return std::nullopt;
+  if (around_.size() < kLeastPoints) return {};
 
   // Try the orientations; check for the better ones also whether the camera sees through them.
   std::vector<std::pair<double, SE3>> tried;
@@ -144,22 +175,26 @@ std::optional<FoundPose> ObjectSearch::search(const KnownObject& object, const O
   std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
   tried.resize(kRefined);
 
-  // Refine the best ones.
-  std::optional<FoundPose> found;
-  for (const auto& [cost, start] : tried) {
-    near_.assign(few_.begin(), few_.end());
-    view.points_near(object, start, kReach, 4 * kFew, near_);
-    const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kIterations).T_camera_object;
-    const FoundPose pose{T, quality_of(object, view, T, points)};
-    if (!found || pose.quality.cost() < found->quality.cost()) found = pose;
-  }
+  // Refine the best ones, and keep those that are visible and consistent and explain the points.
+  found_.clear();
+  for (const auto& [cost, start] : tried) refine(object, view, points, start);
+  if (found_.empty()) return {};
 
-  // Accept the best pose only if it is visible, consistent and explains the points.
-  const auto& [visibility, explained] = found->quality;
-  if (visibility.shown() < kLeastShown || visibility.seen < kLeastSeen ||
-      visibility.inconsistent() > kMaxInconsistent || explained < kLeastExplained)
-    return std::nullopt;
-  return found;
+  // The best one may be wrong by half a turn that changes little of what shows.
+  const auto cost = [](const FoundPose& pose) { return pose.quality.cost(); };
+  const SE3 best = std::ranges::min_element(found_, {}, cost)->T_camera_object;
+  for (const SE3& turn : half_turns(object.samples)) refine(object, view, points, best * turn);
+  std::ranges::sort(found_, {}, cost);
+
+  // Leave out what is almost the same as a better one.
+  std::size_t kept = 0;
+  for (const FoundPose& pose : found_) {
+    const auto same = [&](const FoundPose& better) {
+      return changes_little(object, better.T_camera_object.inverse() * pose.T_camera_object);
+    };
+    if (kept < kMostPoses && std::none_of(found_.begin(), found_.begin() + kept, same)) found_[kept++] = pose;
+  }
+  return {found_.data(), kept};
 }
 
 }  // namespace barehand

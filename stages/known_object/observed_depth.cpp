@@ -11,6 +11,7 @@ using Eigen::Vector3f;
 
 constexpr double kSlant = 0.2;    // cosine of the angle at which a surface is still measured
 constexpr double kAlike = 0.006;  // difference in depth of the same surface, besides noise [m]
+constexpr double kEdge = 0.007;   // difference in depth of neighbouring pixels on different surfaces [m]
 constexpr float kLeave = 0.004f, kInside = 0.0005f;
 
 /// Whether the object itself is between a place on its surface and the camera. Follows the ray in steps of the distance
@@ -42,6 +43,17 @@ bool ObservedDepth::of_hand(int u, int v) const {
   });
 }
 
+double ObservedDepth::depth(int u, int v) const {
+  return frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
+}
+
+/// Whether a neighbour of the pixel with the depth z shows another surface. Such a pixel may measure a place between
+/// both.
+bool ObservedDepth::at_edge(int u, int v, double z) const {
+  const auto differs = [&](double neighbour) { return neighbour > 0 && std::abs(neighbour - z) > kEdge; };
+  return differs(depth(u - 1, v)) || differs(depth(u + 1, v)) || differs(depth(u, v - 1)) || differs(depth(u, v + 1));
+}
+
 void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
                                 std::vector<Vector3f>& points) const {
   // Find the part of the image that the object can be in.
@@ -57,21 +69,43 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
   const int v0 = std::max(0, static_cast<int>(middle.y() - radius));
   const int v1 = std::min(camera.height - 1, static_cast<int>(middle.y() + radius));
 
-  // Collect the pixels in it that are near the surface, on a grid that is wide enough for the wanted number.
+  // Collect the pixels in it that are near the surface and no hand's, on a grid.
   const SE3 T_object_camera = T_camera_object.inverse();
-  const double area = std::max(0.0, 1.0 + u1 - u0) * std::max(0.0, 1.0 + v1 - v0);
-  const int step = std::max(1, static_cast<int>(std::sqrt(0.4 * area / static_cast<double>(most))));
-  const std::size_t end = points.size() + most;
+  const std::size_t before = points.size();
+  const auto collect = [&](int step) {
+    points.resize(before);
+    for (int v = v0; v <= v1; v += step)
+      for (int u = u0; u <= u1 && points.size() < before + most; u += step) {
+        const double z = depth(u, v);
+        if (std::abs(z - centre.z()) > object.radius + reach || of_hand(u, v) || at_edge(u, v, z)) continue;
+        const Vector3d p = camera.unproject(u, v, z);
+        if (object.grid.distance((T_object_camera * p).cast<float>()) > reach) continue;
+        points.push_back(p.cast<float>());
+      }
+  };
 
-  // Leave out the pixels of a hand and those away from the surface.
-  for (int v = v0; v <= v1; v += step)
-    for (int u = u0; u <= u1 && points.size() < end; u += step) {
-      const double z = frame_.depth.at(u, v) * frame_.depth_unit;
-      if (std::abs(z - centre.z()) > object.radius + reach || of_hand(u, v)) continue;
-      const Vector3d p = camera.unproject(u, v, z);
-      if (object.grid.distance((T_object_camera * p).cast<float>()) > reach) continue;
-      points.push_back(p.cast<float>());
-    }
+  // The grid gets finer for a thin object, which covers little of this part.
+  const double area = std::max(0.0, 1.0 + u1 - u0) * std::max(0.0, 1.0 + v1 - v0);
+  const int coarse = std::max(1, static_cast<int>(std::sqrt(0.4 * area / static_cast<double>(most))));
+  collect(coarse);
+  const double covered = coarse * std::sqrt(static_cast<double>(points.size() - before) / static_cast<double>(most));
+  if (const int fine = std::max(1, static_cast<int>(std::ceil(covered))); fine < coarse) collect(fine);
+}
+
+/// What the pixel of a place at depth `z` shows of it. Edges are measured wrongly by a pixel, and most of a thin object
+/// is edge: the place is seen if a neighbour of the pixel shows it.
+int Visibility::*ObservedDepth::shows(int u, int v, double z, double alike) const {
+  const double measured = depth(u, v);
+  if (measured <= 0) return &Visibility::hidden;
+  const bool before = measured<z - alike, behind = measured> z + alike;
+  if (!behind && of_hand(u, v)) return &Visibility::hidden;
+  if (!before && !behind) return &Visibility::seen;
+
+  // Look at the neighbours.
+  for (int y = v - 1; y <= v + 1; ++y)
+    for (int x = u - 1; x <= u + 1; ++x)
+      if (std::abs(depth(x, y) - z) <= alike && !of_hand(x, y)) return &Visibility::seen;
+  return before ? &Visibility::blocked : &Visibility::through;
 }
 
 Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const {
@@ -91,19 +125,8 @@ Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_cam
     const Eigen::Vector2d pixel = frame_.camera.project(p);
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
 
-    // Measure the depth at this pixel, which may belong to a hand.
-    const double z = frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
-    const bool hand = z > 0 && of_hand(u, v);
-
     // Count the sample by what lies in front of it or behind it.
-    if (z <= 0)
-      ++visibility.hidden;
-    else if (z < p.z() - alike)
-      ++(hand ? visibility.hidden : visibility.blocked);
-    else if (z > p.z() + alike)
-      ++visibility.through;
-    else
-      ++(hand ? visibility.hidden : visibility.seen);
+    ++(visibility.*shows(u, v, p.z(), alike));
   }
   return visibility;
 }

@@ -29,7 +29,8 @@ class ObservedDepth {
  public:
   explicit ObservedDepth(const HandObservations& observations);
 
-  /// Appends up to `most` points that belong to no hand and are within `reach` of the surface of the posed object.
+  /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most. Pixels
+  /// at the edge of a surface are left out.
   void points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
                    std::vector<Eigen::Vector3f>& points) const;
   /// Compares the pose with the depth, with the first `samples` samples of the object.
@@ -38,6 +39,9 @@ class ObservedDepth {
 
  private:
   bool of_hand(int u, int v) const;
+  double depth(int u, int v) const;  // [m]; 0: no measurement
+  bool at_edge(int u, int v, double z) const;
+  int Visibility::*shows(int u, int v, double z, double alike) const;
 
   const HandObservations& observations_;
   const RgbdFrame& frame_;

@@ -29,6 +29,7 @@ class Objects : public testing::Test {
     objects_.clear();
     utime_ += kFrame;
     tracker_.process(utime_, {estimate}, space_, open_, points_, objects_);
+    for (const ObjectTrack& track : tracker_.tracks()) EXPECT_TRUE(track.points.empty()) << "they are of this frame";
     left_ = points_;
     points_.clear();
     open_.clear();
@@ -160,6 +161,18 @@ TEST_F(Objects, WhatMovesWithThePalmIsHeldUntilItIsLeft) {
   EXPECT_EQ(frame({0.05, 0, 0.5})[0].since, since);
   piece({0.05f, 0, 0.45f});
   EXPECT_FALSE(frame({0.15, 0, 0.5})[0].held) << "put down";
+}
+
+TEST_F(Objects, WhatThePalmNearsAndThenCarriesIsHeld) {
+  piece({0, 0, 0.45f});
+  frame({0, 0, 0.52});
+  piece({0, 0, 0.45f});
+  frame();  // 20 mm nearer
+  for (int k = 0; k < 5; ++k) {
+    piece({0.01f * k, 0, 0.45f});
+    frame({0.01 * k, 0, 0.5});
+  }
+  EXPECT_TRUE(objects_[0].held);
 }
 
 TEST_F(Objects, WhatContinuesOutOfViewIsNeverHeld) {

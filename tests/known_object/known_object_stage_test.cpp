@@ -110,6 +110,29 @@ TEST_F(KnownObjects, ThatAreSymmetricDoNotTurn) {
   EXPECT_GT(std::sqrt(state->covariance(3, 3)), 5 * kDegree);
 }
 
+TEST_F(KnownObjects, AreStatedRightlyAsSoonAsTheFramesShowWhichPoseIsRight) {
+  look_for(test::box_with_knob());
+  for (const double tilt : {-0.15, 0.0})
+    for (const bool above : {false, true}) {
+      // The knob is hidden when the object is found.
+      stage_.emplace(std::vector<KnownObjectPtr>{object_});
+      scene_.T_camera_object = test::knob_right(tilt, above);
+      scene_.covered_from = test::kKnob;
+      std::optional<ObjectEstimate> state;
+      for (int i = 0; i < 10 && !state; ++i) state = next();
+      ASSERT_TRUE(state) << tilt;
+      for (int i = 0; i < 5; ++i) EXPECT_TRUE(next()) << tilt;
+
+      // Then it shows.
+      scene_.covered_from = 200;
+      for (int i = 0; i < 5; ++i) {
+        state = next();
+        ASSERT_TRUE(state) << tilt << ", frame " << i;
+        EXPECT_LT(turn(*state), 3 * kDegree) << tilt << (above ? " above" : " below") << ", frame " << i;
+      }
+    }
+}
+
 TEST_F(KnownObjects, AreLostBehindAHandAndFoundAgain) {
   look_for(test::hammer_mesh());
   while (!next() && utime_ < 2'000'000) continue;

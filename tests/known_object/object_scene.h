@@ -3,10 +3,26 @@
 #include "object/known_object.h"
 #include "observe/observation.h"
 #include "observe/surface_point.h"
+#include "support/solid_meshes.h"
 
 namespace barehand::test {
 
-/// An ideal camera that sees one object in front of a wall; a hand may cover part of the image.
+/// A box with a knob on its right side, above the middle.
+inline ObjectMesh box_with_knob() {
+  ObjectMesh mesh = box_mesh({0.06f, 0.12f, 0.03f});
+  mesh.name = "box with a knob";
+  add(mesh, box_mesh({0.03f, 0.03f, 0.03f}), {0.04f, 0.035f, 0});
+  return mesh;
+}
+
+/// A pose of it before the camera, tilted a little. From column kKnob on, a hand hides the knob, so that nothing shows
+/// whether it is above or below.
+inline SE3 knob_right(double tilt, bool above) {
+  return {exp_so3({0.2, tilt, 0}) * exp_so3({above ? std::numbers::pi : 0, 0, 0}), {0, 0.005, 0.5}};
+}
+constexpr int kKnob = 110;
+
+/// An ideal camera that sees one object before a wall; a hand may cover part of the image.
 struct ObjectScene {
   static constexpr double kWall = 0.9;  // distance of the wall [m]
   Intrinsics camera{200, 150, 330, 330, 99.5, 74.5};

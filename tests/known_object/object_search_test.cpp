@@ -13,13 +13,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-std::optional<FoundPose> search(const KnownObject& wanted, const test::ObjectScene& scene) {
+std::vector<FoundPose> search(const KnownObject& wanted, const test::ObjectScene& scene) {
   const auto seen = scene.observe(0);
   const HandObservations observations{seen};
   std::vector<Vector3f> points;
   for (const SurfacePoint& point : test::ObjectScene::points(*seen)) points.push_back(point.p);
-  if (points.empty()) return std::nullopt;
-  return ObjectSearch().search(wanted, ObservedDepth(observations), points, points.front());
+  if (points.empty()) return {};
+  ObjectSearch search;
+  const auto found = search.search(wanted, ObservedDepth(observations), points, points.front());
+  return {found.begin(), found.end()};
 }
 
 TEST(ObjectSearch, FindsAnObjectInAnyOrientation) {
@@ -32,9 +34,11 @@ TEST(ObjectSearch, FindsAnObjectInAnyOrientation) {
     test::ObjectScene scene;
     scene.object = hammer.get();
     scene.T_camera_object = {exp_so3(2 * turn), {random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 0.5}};
-    const auto pose = search(*hammer, scene);
-    found += pose && (pose->T_camera_object.t - scene.T_camera_object.t).norm() < 0.003 &&
-             log_so3(pose->T_camera_object.R * scene.T_camera_object.R.transpose()).norm() < 3 * kDegree;
+    const auto poses = search(*hammer, scene);
+    if (poses.empty()) continue;
+    const SE3& T = poses.front().T_camera_object;
+    found += (T.t - scene.T_camera_object.t).norm() < 0.003 &&
+             log_so3(T.R * scene.T_camera_object.R.transpose()).norm() < 3 * kDegree;
   }
   EXPECT_GE(found, kPoses - 2);
 }
@@ -48,12 +52,40 @@ TEST(ObjectSearch, FindsNothingWhereSomethingElseIs) {
     scene.object = other.get();
     scene.T_camera_object = {exp_so3({0.3, 0.2, 0.1}), {0, 0, 0.5}};
     const auto wrong = search(*hammer, scene);
-    EXPECT_FALSE(wrong) << other->name << " explained " << wrong->quality.explained << " doubtful "
-                        << wrong->quality.visibility.inconsistent() << " shown " << wrong->quality.visibility.shown();
+    EXPECT_TRUE(wrong.empty()) << other->name << " explained " << wrong[0].quality.explained << " doubtful "
+                               << wrong[0].quality.visibility.inconsistent() << " shown "
+                               << wrong[0].quality.visibility.shown();
     const auto right = search(*other, scene);
-    ASSERT_TRUE(right) << other->name;
-    EXPECT_LT(right->quality.cost(), 0.3);
+    ASSERT_FALSE(right.empty()) << other->name;
+    EXPECT_LT(right.front().quality.cost(), 0.3);
   }
+}
+
+TEST(ObjectSearch, FindsAllPosesThatAHandMakesAlike) {
+  const KnownObjectPtr box = make_known_object(test::box_with_knob(), 1);
+  test::ObjectScene scene;
+  scene.object = box.get();
+  scene.T_camera_object = test::knob_right(0.2, true);
+  scene.covered_from = test::kKnob;
+  const auto poses = search(*box, scene);
+  ASSERT_GE(poses.size(), 2u);
+  EXPECT_LE(poses.size(), ObjectSearch::kMostPoses);
+  EXPECT_TRUE(std::ranges::any_of(poses, [&](const FoundPose& pose) {
+    return log_so3(pose.T_camera_object.R * scene.T_camera_object.R.transpose()).norm() < 5 * kDegree;
+  }));
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    EXPECT_GE(poses[i].quality.cost(), poses[i - 1].quality.cost());
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GT(log_so3(poses[i].T_camera_object.R * poses[k].T_camera_object.R.transpose()).norm(), 20 * kDegree);
+  }
+}
+
+TEST(ObjectSearch, TurnsOfASymmetricObjectAreOnePose) {
+  const KnownObjectPtr ball = make_known_object(test::ball_mesh(0.04f), 1);
+  test::ObjectScene scene;
+  scene.object = ball.get();
+  scene.T_camera_object = {Eigen::Matrix3d::Identity(), {0, 0, 0.5}};
+  EXPECT_EQ(search(*ball, scene).size(), 1u);
 }
 
 }  // namespace
