@@ -40,4 +40,13 @@ struct PosedObject {
   std::int32_t hand_id = -1;                   ///< the hand that holds it; -1: none
 };
 
+/// Where a known object was in an earlier frame, for the tracker of a hand near it.
+struct NearbyObject {
+  KnownObjectPtr object;
+  SE3 T_base_object;          ///< base: the palm with which the object moves, or the camera if it moves with none
+  std::int32_t hand_id = -1;  ///< the hand of that palm; -1: the base is the camera
+  bool held = false;          ///< a hand holds it
+  double deviation = 0;       ///< standard deviation of its place [m]
+};
+
 }  // namespace barehand

@@ -2,6 +2,7 @@
 #include "pipeline/track_stages.h"
 
 #include "io/data_files.h"
+#include "pipeline/object_feedback.h"
 #include "stages/contact/contact_stage.h"
 #include "stages/detection/detection_stage.h"
 #include "stages/grasp/grasp_stage.h"
@@ -52,14 +53,22 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
 
-  // Contacts are found if they are requested or if there are known objects to track.
+  // Contacts are found if they are requested or if there are known objects to track, which the tracker gets back.
   TrackStages stages;
+  const auto feedback = objects.empty() ? nullptr : std::make_shared<ObjectFeedback>();
   if (config.contact.enabled || !objects.empty())
-    stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects)](
-                         const HandObservations& observations, const HandEstimates& estimates) {
-      auto contacts = contact->process(observations, estimates);
-      if (watch) watch(contact->objects());
-      return contacts;
+    stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects), feedback,
+                      places = ObjectPlaces()](const HandObservations& observations,
+                                               const HandEstimates& estimates) mutable {
+      try {
+        auto contacts = contact->process(observations, estimates);
+        if (watch) watch(contact->objects());
+        if (feedback) feedback->post(places.place(contact->known_objects(), estimates));
+        return contacts;
+      } catch (...) {
+        if (feedback) feedback->post({});  // the tracker waits for it
+        throw;
+      }
     };
 
   // Grasps are classified if their classifier can be loaded.
@@ -73,7 +82,12 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);
     return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
   };
-  stages.track = std::bind_front(&CommandedTracker::process, tracker);
+  stages.track = [tracker, feedback](const HandObservations& observations) {
+    if (feedback) tracker->see_objects(feedback->wait());
+    auto estimates = tracker->process(observations);
+    if (feedback) feedback->next();
+    return estimates;
+  };
   return stages;
 }
 

@@ -29,6 +29,8 @@ class EstimateBuilder {
   void start_track();
   /// Continues with the changed parameters of the context.
   void change();
+  /// The id of the hand that is tracked, or was tracked last.
+  std::int32_t hand_id() const { return hand_id_; }
   /// Forgets the last tracked pose.
   void reset() { last_tracked_.reset(); }
 

@@ -152,6 +152,13 @@ void HandTracker::commit(const HandObservation& observation, const Hypothesis& b
   track_.motion.restart(best.refined.pose, observation.frame->utime);
 }
 
+void HandTracker::see_objects(std::span<const NearbyObject> objects) {
+  context_.objects.clear();
+  if (!context_.params.refinement.objects.enabled) return;
+  for (const NearbyObject& nearby : objects)
+    if (nearby.hand_id < 0 || nearby.hand_id == estimates_.hand_id()) context_.objects.push_back(nearby);
+}
+
 void HandTracker::apply(const TrackRequest& request) {
   if (const auto* start = std::get_if<StartAt>(&request)) {
     given_start_ = start->pose;

@@ -72,6 +72,9 @@ class HandTracker {
                           std::span<const Decision> decisions = {});
   /// Returns the best pose that up to `attempts` searches find in the next observation (Proposers::search_frame).
   std::optional<Hypothesis> search(const HandObservation& observation, Effort effort, int attempts);
+  /// Tells the tracker which known objects are near the hands, before the frame in which they count. They couple with
+  /// the hand if `refinement.objects.enabled` says so, unless another hand holds them.
+  void see_objects(std::span<const NearbyObject> objects);
   /// Executes a request between two frames. UseParams may throw; then nothing has changed.
   void apply(const TrackRequest& request);
   TrackView view() const;

@@ -6,12 +6,17 @@
 #include "stages/pose_prior/hidden_fingers.h"
 
 namespace barehand {
+namespace {
+
+constexpr double kGripped = 0.5;  // from this grip on, hidden fingers stay where they are on what the hand grips
+
+}  // namespace
 
 void Track::continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params) {
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = best.refined.matched[s] >= params.seen_fraction;
   HandPose pose = best.refined.pose;
-  if (params.hidden_follow)
+  if (params.hidden_follow && best.refined.grip < kGripped)
     pose = with_hidden_following(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched,
                                  params.initialiser.widening);
   motion.update(pose, seen, *best.prediction);

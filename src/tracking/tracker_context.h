@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/log.h"
 #include "core/parallel/parallel.h"
+#include "object/known_object.h"
 #include "stages/segment_tracker/make_observer.h"
 #include "stages/segment_tracker/segment_tracker.h"
 #include "tracking/tracker_params.h"
@@ -18,6 +20,8 @@ struct TrackerContext {
   Workers& workers;                     ///< must outlive the tracker
   std::shared_ptr<spdlog::logger> log;  ///< for messages to the user
   std::shared_ptr<Observer> observer;   ///< compares samples with the data; kept from model to model, may be a GPU
+
+  std::vector<NearbyObject> objects = {};  ///< known objects near this hand, as they were a few frames ago
 
   /// The observer for other parameters: the present one, unless they ask for another observer.
   std::shared_ptr<Observer> observer_for(const TrackerParams& other) const {

@@ -53,6 +53,10 @@ void TwoHandTracker::renew_verifiers() {
                                                              count() == 1 ? log_ : make_silent_logger()));
 }
 
+void TwoHandTracker::see_objects(std::span<const NearbyObject> objects) {
+  for (const auto& hand : hands_) hand->see_objects(objects);
+}
+
 HandEstimates TwoHandTracker::process(const HandObservations& observations) {
   // With one hand, no observation has to be assigned.
   if (count() == 1) return {process_single_hand(*observations[0])};

@@ -36,6 +36,8 @@ class ContactStage {
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
   /// The unknown objects (those for which no mesh was given), as they were in the last frame.
   std::span<const ObjectTrack> objects() const { return objects_.tracks(); }
+  /// The known objects that were seen in the last frame.
+  std::span<const PosedObject> known_objects() const { return known_; }
 
  private:
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);

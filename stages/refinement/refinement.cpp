@@ -20,6 +20,7 @@ constexpr double kShapeRobustScale = 0.012;
 // Number of final steps that compare finely. Far from the optimum, a coarse comparison yields about the same step at a
 // lower cost.
 constexpr int kFineSteps = 3;
+constexpr int kContactPoints = 60;          // points of each segment's skin that are compared with objects
 constexpr double kCoarseCell = 0.006;       // cell size of the coarse skin [m]
 constexpr std::size_t kManyPixels = 10000;  // for a hand with more pixels, a coarse comparison uses every other cell
 
@@ -47,7 +48,8 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
       skin_(std::move(skin)),
       coarse_skin_(coarsened(*skin_, kCoarseCell)),
       limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)),
-      contact_(*profile_) {}
+      contact_(*profile_),
+      object_contact_(params.objects, surface_points(*skin_, *profile_, kContactPoints)) {}
 
 Refinement::Detail Refinement::fine() const { return {*skin_, params_.comparison.stride}; }
 
@@ -72,17 +74,23 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
 }
 
 bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen,
-                      const DataWeighting& weighting, const Skin& skin, Workspace& work, RefinedPose& refined) const {
+                      const DataWeighting& weighting, const Skin& skin, std::span<const NearbyObject> objects,
+                      Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
 
   // Store the evidence of the data separately, because the covariance is computed from it.
   refined.evidence.set_zero();
   add_data_terms(skin, pose, work.comparison, params_.energy, weighting, refined.evidence);
 
-  // Add the joints, the contact between fingers, the prior and the damping.
+  // Add the joints, the contact between fingers and with objects, the prior and the damping.
   GaussianTree& tree = work.tree = refined.evidence;
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
+  if (!objects.empty()) {
+    std::array<double, kSegmentCount> hidden;
+    std::ranges::transform(seen, hidden.begin(), [](double share) { return 1 - share; });
+    refined.grip = object_contact_.add_terms(pose, objects, hidden, tree).grip;
+  }
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s].diagonal() *= 1 + params_.damping;
@@ -117,12 +125,13 @@ RefinedPose Refinement::evaluate(const HandObservation& observation, const HandP
 }
 
 RefinedPose Refinement::refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                               int iterations) const {
-  return refine_best(observation, {&start, 1}, predicted, iterations);
+                               int iterations, std::span<const NearbyObject> objects) const {
+  return refine_best(observation, {&start, 1}, predicted, iterations, objects);
 }
 
 RefinedPose Refinement::refine_best(const HandObservation& observation, std::span<const HandPose> starts,
-                                    const HandPose& predicted, int iterations) const {
+                                    const HandPose& predicted, int iterations,
+                                    std::span<const NearbyObject> objects) const {
   const auto is_fine = [&](int i) { return i + kFineSteps >= iterations; };
 
   // Only the first steps compare coarsely; the last ones and the score after them compare finely.
@@ -166,7 +175,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds disturb only the fine steps
 
-    if (!step(predicted, seen, weighting, detail(i).skin, *work, result)) break;
+    if (!step(predicted, seen, weighting, detail(i).skin, objects, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);
   }

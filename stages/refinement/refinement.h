@@ -6,6 +6,7 @@
 #include "core/pool.h"
 #include "stages/refinement/hand_contact.h"
 #include "stages/refinement/hand_energy.h"
+#include "stages/refinement/object_contact.h"
 #include "stages/refinement/shape_moments.h"
 
 namespace barehand {
@@ -22,6 +23,7 @@ struct RefinementParams {
   double max_rotation_deg = 25;
   ComparisonParams comparison;
   EnergyParams energy;
+  ObjectContactParams objects;
   bool operator==(const RefinementParams&) const = default;
 };
 
@@ -36,6 +38,7 @@ void visit(V& v, RefinementParams& p) {
   v("max_rotation_deg", p.max_rotation_deg, 1.0, 180.0, "degrees, largest rotation of a segment in one step");
   v("comparison", p.comparison, "comparison of model and data, pixel by pixel");
   v("energy", p.energy, "weights of the energy");
+  v("objects", p.objects, "known objects, which hold back and attract fingers");
 }
 
 /// A refined pose, its score, and how much of each segment was seen.
@@ -44,6 +47,7 @@ struct RefinedPose {
   double score = 0;                             ///< ModelComparison::score [m]
   std::array<double, kSegmentCount> visible{};  ///< fraction of the projected skin that is front-most
   std::array<double, kSegmentCount> matched{};  ///< fraction of the projected skin that agrees with hand data
+  double grip = 0;                              ///< ObjectContact::Terms::grip at the last step
   GaussianTree evidence;  ///< normal equations of the data alone at the last step; zero if no step was taken
 };
 
@@ -57,12 +61,13 @@ class Refinement {
 
   /// Moves `start` to a nearby optimum. `predicted` is the weak prior: the more of a segment's skin agrees with data
   /// at `start`, the more freely it may leave its prediction. `iterations`: number of Gauss-Newton steps.
+  /// `objects`: the known objects that couple with this hand.
   RefinedPose refine(const HandObservation& observation, const HandPose& start, const HandPose& predicted,
-                     int iterations) const;
+                     int iterations, std::span<const NearbyObject> objects = {}) const;
   /// Like refine(), but starts from the one of `starts` (at least one) that fits the frame best before any step; among
   /// equally good ones, from the first.
   RefinedPose refine_best(const HandObservation& observation, std::span<const HandPose> starts,
-                          const HandPose& predicted, int iterations) const;
+                          const HandPose& predicted, int iterations, std::span<const NearbyObject> objects = {}) const;
   /// Score and visibility of an unchanged pose.
   RefinedPose evaluate(const HandObservation& observation, const HandPose& pose) const;
   /// Normal equations of the hand's shape at a refined pose; `basis` must belong to the skin that this
@@ -91,7 +96,7 @@ class Refinement {
   // One Gauss-Newton step on `refined.pose`. `seen`: as in add_prior_terms(). Returns false if the normal equations
   // cannot be solved.
   bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, const DataWeighting& weighting,
-            const Skin& skin, Workspace& work, RefinedPose& refined) const;
+            const Skin& skin, std::span<const NearbyObject> objects, Workspace& work, RefinedPose& refined) const;
 
   RefinementParams params_;
   std::shared_ptr<const HandProfile> profile_;
@@ -99,6 +104,7 @@ class Refinement {
   Skin coarse_skin_;  // used in all but the last steps
   std::array<JointLimits, kSegmentCount> limits_;
   HandContact contact_;
+  ObjectContact object_contact_;
   mutable Pool<Workspace> workspaces_;
 };
 

@@ -45,8 +45,8 @@ Hypothesis Follower::follow(const HandObservation& observation, HandModel& hand,
   if (!sampling || !is_distinct(*hand.profile, followed.refined, fused.pose)) return followed;
   Hypothesis sampled;
   sampled.origin = Origin::sampled;
-  sampled.refined =
-      hand.refinement.refine(observation, fused.pose, followed.prediction->primary(), params.refinement.iterations);
+  sampled.refined = hand.refinement.refine(observation, fused.pose, followed.prediction->primary(),
+                                           params.refinement.iterations, context_.objects);
   if (choice.replaces("sampling", sampled, followed, params.choice.sampling_advantage)) {
     followed.origin = Origin::sampled;
     followed.refined = std::move(sampled.refined);
@@ -100,7 +100,8 @@ RefinedPose Follower::refine_best_start(const HandObservation& observation, cons
     const HandPose& pose = prediction.candidates[i].pose;
     if (pose_distance(*hand.profile, pose, prediction.primary()) >= kDistinct) starts_.push_back(pose);
   }
-  return hand.refinement.refine_best(observation, starts_, prediction.primary(), context_.params.refinement.iterations);
+  return hand.refinement.refine_best(observation, starts_, prediction.primary(), context_.params.refinement.iterations,
+                                     context_.objects);
 }
 
 /// Whether a visible segment of the sampled pose is in another place than in the refined one. Otherwise refining the

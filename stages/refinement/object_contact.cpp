@@ -1,0 +1,112 @@
+// The terms of the energy that couple a hand with known objects.
+#include "stages/refinement/object_contact.h"
+
+#include <algorithm>
+
+namespace barehand {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr double kHidden = 0.5;  // tips that are more hidden than this show nothing of the grip
+// A grip is firm if a tip that is seen is within kTouching of the object, and none if all are beyond kApart [m].
+constexpr double kTouching = 0.0035, kApart = 0.0055;
+
+double sq(double x) { return x * x; }
+
+Vector3f point_of(const SegmentSurface& surface, std::size_t i) { return {surface.x[i], surface.y[i], surface.z[i]}; }
+
+}  // namespace
+
+ObjectContact::ObjectContact(const ObjectContactParams& params, HandSurface surface)
+    : params_(params), surface_(std::move(surface)) {
+  for (int s = 0; s < kSegmentCount; ++s) {
+    Sphere& sphere = spheres_[s];
+    const SegmentSurface& skin = surface_[s];
+    for (std::size_t i = 0; i < skin.size(); ++i) sphere.centre += point_of(skin, i) / static_cast<float>(skin.size());
+    for (std::size_t i = 0; i < skin.size(); ++i)
+      sphere.radius = std::max(sphere.radius, (point_of(skin, i) - sphere.centre).norm());
+  }
+}
+
+ObjectContact::Nearest ObjectContact::nearest(const HandPose& pose, int segment, const DistanceGrid& grid,
+                                              const SE3& T_camera_object) const {
+  const SE3 T_object_segment = T_camera_object.inverse() * pose[segment];
+  const Eigen::Matrix3f R = T_object_segment.R.cast<float>();
+  const Vector3f t = T_object_segment.t.cast<float>();
+  const auto reach = static_cast<float>(DistanceGrid::kMargin);
+
+  // Leave out segments that are far away.
+  Nearest best;
+  const Sphere& sphere = spheres_[segment];
+  if (grid.distance(R * sphere.centre + t) > sphere.radius + reach) return best;
+
+  // Find the nearest point of the skin.
+  DistanceGrid::Sample least{reach, Vector3f::Zero()};
+  Vector3f point = Vector3f::Zero();
+  for (std::size_t i = 0; i < surface_[segment].size(); ++i) {
+    const Vector3f p = point_of(surface_[segment], i);
+    const DistanceGrid::Sample sample = grid.sample(R * p + t);
+    if (sample.distance >= least.distance) continue;
+    least = sample;
+    point = p;
+  }
+  best.distance = least.distance;
+  best.point = pose[segment] * point.cast<double>();
+  best.gradient = T_camera_object.R * least.gradient.cast<double>();
+  return best;
+}
+
+/// How firmly the hand grips an object, from 0 to 1. A hand that opens shows that by the tips that are seen; if none
+/// is, it may grip.
+double ObjectContact::grip(const std::array<Nearest, kSegmentCount>& near,
+                           const std::array<double, kSegmentCount>& hidden, bool held) const {
+  bool any_seen = false;
+  double least = DistanceGrid::kMargin;
+  for (int finger = 0; finger < kFingerCount; ++finger) {
+    const int tip = segment_of(finger, 2);
+    if (hidden[tip] > kHidden) continue;
+    any_seen = true;
+    least = std::min(least, near[tip].distance);
+  }
+  if (!any_seen) return held ? 1 : 0;
+  return std::clamp((kApart - least) / (kApart - kTouching), 0.0, 1.0);
+}
+
+ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<const NearbyObject> objects,
+                                              const std::array<double, kSegmentCount>& hidden,
+                                              GaussianTree& tree) const {
+  Terms result;
+  for (const NearbyObject& nearby : objects) {
+    const SE3 T_camera_object = nearby.hand_id >= 0 ? pose[kPalm] * nearby.T_base_object : nearby.T_base_object;
+    std::array<Nearest, kSegmentCount> nearest_of;
+    for (int s = segment_of(0, 0); s < kSegmentCount; ++s)
+      nearest_of[s] = nearest(pose, s, nearby.object->grid, T_camera_object);
+    const double firm = grip(nearest_of, hidden, nearby.held);
+    result.grip = std::max(result.grip, firm);
+
+    // Add the distance of each segment.
+    for (int s = segment_of(0, 0); s < kSegmentCount; ++s) {
+      const Nearest& near = nearest_of[s];
+      const double d = near.distance;
+      if (d >= DistanceGrid::kMargin) continue;
+
+      // A tip that is not seen rests on what the hand holds.
+      double information = 1 / (sq(params_.sigma_inside) + sq(nearby.deviation)), root = 1;
+      if (d > 0) {
+        if (!is_tip(s)) continue;
+        information = firm * hidden[s] / (sq(params_.sigma_touch) + sq(nearby.deviation));
+        root = sq(params_.touch_scale) / (sq(params_.touch_scale) + sq(d));
+      }
+
+      // Add the distance with the weight of the robust loss.
+      const Vector6d row = point_jacobian(near.point - pose[s].t).transpose() * near.gradient;
+      tree.H_self[s] += information * sq(root) * row * row.transpose();
+      tree.g[s] -= information * sq(root) * d * row;
+      result.energy += information * root * sq(d);
+    }
+  }
+  return result;
+}
+
+}  // namespace barehand

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "hand/gaussian_tree.h"
+#include "hand/hand_pose.h"
+#include "hand/surface.h"
+#include "object/known_object.h"
+
+namespace barehand {
+
+/// Weights of the terms that couple a hand with known objects.
+struct ObjectContactParams {
+  bool enabled = true;
+  double sigma_inside = 0.002;
+  double sigma_touch = 0.004;
+  double touch_scale = 0.015;
+  bool operator==(const ObjectContactParams&) const = default;
+};
+
+template <class V>
+void visit(V& v, ObjectContactParams& p) {
+  v("enabled", p.enabled, "keep fingers out of known objects, and draw the hidden tips that hold one to its surface");
+  v("sigma_inside", p.sigma_inside, 1e-5, 1.0, "m, standard deviation of the depth of a segment within an object");
+  v("sigma_touch", p.sigma_touch, 1e-5, 1.0,
+    "m, standard deviation of the distance of a hidden fingertip from the object that its hand holds");
+  v("touch_scale", p.touch_scale, 1e-4, 1.0, "m, Geman-McClure scale of that distance");
+}
+
+/// Couples a hand with the known objects near it: its fingers do not enter them, and hidden tips of a hand that grips
+/// an object are drawn to its surface. Immutable once made.
+class ObjectContact {
+ public:
+  /// `surface`: the skin of the hand.
+  ObjectContact(const ObjectContactParams& params, HandSurface surface);
+
+  /// What add_terms() added.
+  struct Terms {
+    double energy = 0;
+    double grip = 0;  ///< how firmly the hand grips one of the objects, from 0 to 1
+  };
+  /// Adds the distances of the fingers from the objects as least-squares residuals to `tree`; returns the energy. The
+  /// distance of a segment is that of the point of its skin that is nearest to the object, or deepest within it.
+  /// Objects move neither with the fingers nor, though a held one is fixed to it, with the palm: the tree's blocks of
+  /// the palm stay as they are. `hidden`: how hidden each segment is, from 0 to 1.
+  Terms add_terms(const HandPose& pose, std::span<const NearbyObject> objects,
+                  const std::array<double, kSegmentCount>& hidden, GaussianTree& tree) const;
+
+ private:
+  /// The place of a segment's skin that is nearest to an object.
+  struct Nearest {
+    double distance = DistanceGrid::kMargin;      // signed [m]
+    Eigen::Vector3d point, gradient = {0, 0, 0};  // camera frame; the gradient is that of the distance
+  };
+  double grip(const std::array<Nearest, kSegmentCount>& near, const std::array<double, kSegmentCount>& hidden,
+              bool held) const;
+  Nearest nearest(const HandPose& pose, int segment, const DistanceGrid& grid, const SE3& T_camera_object) const;
+
+  ObjectContactParams params_;
+  HandSurface surface_;
+  struct Sphere {
+    Eigen::Vector3f centre = {0, 0, 0};
+    float radius = 0;
+  };
+  std::array<Sphere, kSegmentCount> spheres_;  // around the skin of each segment, in its frame
+};
+
+}  // namespace barehand

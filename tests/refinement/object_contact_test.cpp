@@ -1,0 +1,161 @@
+#include "stages/refinement/object_contact.h"
+
+#include <gtest/gtest.h>
+
+#include "gradient_error.h"
+#include "hand/skin.h"
+#include "math/angles.h"
+#include "stages/refinement/hand_energy.h"
+#include "support/adult_hand.h"
+#include "support/painted_hand.h"
+#include "support/solid_meshes.h"
+
+namespace barehand {
+namespace {
+
+constexpr int kTip = segment_of(0, 2);
+
+class ObjectContactTest : public testing::Test {
+ protected:
+  ObjectContactTest() { hidden_.fill(1); }
+
+  /// A ball whose surface is about `gap` [m] from the pad of the thumb.
+  NearbyObject ball_at_the_pad(double gap, std::int32_t hand_id) const {
+    const SE3& tip = pose_[kTip];
+    const SegmentProfile& segment = profile_->segments[kTip];
+    NearbyObject ball{ball_, {Eigen::Matrix3d::Identity(), tip * Eigen::Vector3d(0.8 * segment.distal)}};
+    ball.T_base_object.t -= (kRadius + gap + segment.half_thickness[1]) * tip.R.col(1);
+    if (hand_id >= 0) ball.T_base_object = pose_[kPalm].inverse() * ball.T_base_object;
+    ball.hand_id = hand_id;
+    ball.held = hand_id >= 0;
+    return ball;
+  }
+  double energy(const HandPose& pose, const NearbyObject& object) const {
+    GaussianTree unused;
+    unused.set_zero();
+    return contact_.add_terms(pose, {&object, 1}, hidden_, unused).energy;
+  }
+  /// The signed distance of the thumb's last segment from an object in the palm [m].
+  double distance(const HandPose& pose, const NearbyObject& object) const {
+    const SE3 T_object_tip = (pose[kPalm] * object.T_base_object).inverse() * pose[kTip];
+    const SegmentSurface& tip = surface_[kTip];
+    double least = 1;
+    for (std::size_t i = 0; i < tip.size(); ++i) {
+      const Eigen::Vector3d p = T_object_tip * Eigen::Vector3d(tip.x[i], tip.y[i], tip.z[i]);
+      least = std::min<double>(least, object.object->grid.distance(p.cast<float>()));
+    }
+    return least;
+  }
+  /// The object where it is at this pose, although the palm moves by a step of a numeric derivative.
+  double energy_with_object_at_rest(const HandPose& pose, NearbyObject object) const {
+    if (object.hand_id >= 0) object.T_base_object = pose[kPalm].inverse() * pose_[kPalm] * object.T_base_object;
+    return energy(pose, object);
+  }
+  double gradient_error(const NearbyObject& object, const GaussianTree& tree) const {
+    constexpr double kStep = 4e-5, kArm = 0.03;  // steps are large compared with the rounding of floats
+    return test::gradient_error([&](const HandPose& at) { return energy_with_object_at_rest(at, object); }, pose_, tree,
+                                kStep, kArm);
+  }
+
+  static constexpr float kRadius = 0.012f;
+  std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
+  HandPose pose_ = test::facing_pose(*profile_, 0.45, 0.35);
+  KnownObjectPtr ball_ = make_known_object(test::ball_mesh(kRadius), 1);
+  std::array<double, kSegmentCount> hidden_{};
+  HandSurface surface_ = surface_points(make_blended_skin(*profile_, 0.004), *profile_, 60);
+  ObjectContact contact_{{}, surface_};
+};
+
+TEST_F(ObjectContactTest, GradientsMatchCentralDifferencesAndWrongOnesAreRejected) {
+  for (const auto& [gap, hand] : {std::pair{-0.005, -1}, {-0.005, 1}, {0.008, 1}}) {
+    const NearbyObject object = ball_at_the_pad(gap, hand);
+    GaussianTree tree;
+    tree.set_zero();
+    ASSERT_GT(contact_.add_terms(pose_, {&object, 1}, hidden_, tree).energy, 0.1) << gap << " " << hand;
+    EXPECT_LT(gradient_error(object, tree), 0.03) << gap << " " << hand;
+
+    // Wrong translations, and wrong rotations.
+    GaussianTree wrong = tree;
+    for (Vector6d& g : wrong.g) g.head<3>() *= -1;
+    EXPECT_GT(gradient_error(object, wrong), 0.5);
+    wrong = tree;
+    for (Vector6d& g : wrong.g) g.tail<3>() *= -1;
+    EXPECT_GT(gradient_error(object, wrong), 0.1);
+  }
+}
+
+TEST_F(ObjectContactTest, OnlyHiddenTipsOfTheHandThatHoldsItAreDrawnToAnObject) {
+  const NearbyObject held = ball_at_the_pad(0.008, 1), free = ball_at_the_pad(0.008, -1);
+  EXPECT_GT(energy(pose_, held), 0.1);
+  EXPECT_EQ(energy(pose_, free), 0);
+  hidden_.fill(0);
+  EXPECT_EQ(energy(pose_, held), 0);
+
+  // The tree has terms of tips alone.
+  hidden_.fill(1);
+  GaussianTree tree;
+  tree.set_zero();
+  contact_.add_terms(pose_, {&held, 1}, hidden_, tree);
+  EXPECT_GT(tree.g[kTip].norm(), 0);
+  for (int s = 0; s < kSegmentCount; ++s) EXPECT_TRUE(is_tip(s) || tree.g[s].norm() == 0) << s;
+}
+
+TEST_F(ObjectContactTest, TipsThatAreSeenShowWhetherTheHandGrips) {
+  // The thumb, which is seen, touches the object or not; all other tips are hidden.
+  const auto gripped = [&](double gap, bool held) {
+    NearbyObject object = ball_at_the_pad(gap, -1);
+    object.held = held;
+    GaussianTree tree;
+    tree.set_zero();
+    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).grip;
+  };
+  hidden_[kTip] = 0;
+  EXPECT_EQ(gripped(0.001, false), 1);
+  EXPECT_EQ(gripped(0.001, true), 1);
+  EXPECT_EQ(gripped(0.012, true), 0);
+
+  // No tip is seen.
+  hidden_[kTip] = 1;
+  EXPECT_EQ(gripped(0.001, true), 1);
+  EXPECT_EQ(gripped(0.001, false), 0);
+
+  // The little finger shows that the hand is open.
+  hidden_[segment_of(4, 2)] = 0;
+  EXPECT_EQ(gripped(0.008, true), 0);
+  EXPECT_EQ(energy(pose_, ball_at_the_pad(0.008, 1)), 0);
+}
+
+TEST_F(ObjectContactTest, AnObjectOutOfReachAddsNothing) {
+  NearbyObject object = ball_at_the_pad(0, -1);
+  object.held = true;
+  object.T_base_object.t.z() += 0.3;
+  EXPECT_EQ(energy(pose_, object), 0);
+}
+
+// Minimises the energy of the refinement without data: the soft joints hold the hand together, and each step starts
+// from the pose of the step before.
+TEST_F(ObjectContactTest, FingersLeaveTheObjectAndHiddenTipsComeToIt) {
+  const auto limits = widened_limits(*profile_, 10 * kDegree);
+  std::array<double, kSegmentCount> seen;
+  seen.fill(0);
+  for (const double gap : {-0.008, 0.012}) {
+    const NearbyObject object = ball_at_the_pad(gap, 1);
+    HandPose pose = pose_;
+    for (int step = 0; step < 40; ++step) {
+      GaussianTree tree;
+      tree.set_zero();
+      contact_.add_terms(pose, {&object, 1}, hidden_, tree);
+      add_joint_terms(*profile_, limits, pose, {}, tree);
+      add_prior_terms(*profile_, pose, seen, pose, {}, tree);
+      tree.H_self[kPalm].diagonal().array() += 1e9;  // the palm is seen
+      std::array<Vector6d, kSegmentCount> x;
+      ASSERT_TRUE(tree.solve(x));
+      for (int s = 0; s < kSegmentCount; ++s) pose[s] = boxplus(pose[s], x[s]);
+    }
+    EXPECT_GT(std::abs(distance(pose_, object)), 0.005) << gap;
+    EXPECT_NEAR(distance(pose, object), 0, 0.002) << gap;
+  }
+}
+
+}  // namespace
+}  // namespace barehand
