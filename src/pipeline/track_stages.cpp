@@ -83,7 +83,7 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
     return (*preprocessor)->process(frame, feedback, detection->process(*frame, feedback));
   };
   stages.track = [tracker, feedback](const HandObservations& observations) {
-    if (feedback) tracker->see_objects(feedback->wait());
+    if (feedback) tracker->couple_with(feedback->wait());
     auto estimates = tracker->process(observations);
     if (feedback) feedback->next();
     return estimates;

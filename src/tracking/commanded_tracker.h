@@ -33,8 +33,8 @@ class CommandedTracker {
   /// Executes commands, then tracks the hands in this frame. Never returns an error: the pipeline requires this type of
   /// every stage.
   Result<HandEstimates> process(const HandObservations& observations);
-  /// Tells the hands which known objects are near, before the frame in which they count.
-  void see_objects(std::span<const NearbyObject> objects) { tracker_.see_objects(objects); }
+  /// Lets the hands couple with the known objects near them (CoupleWith), from the next frame on.
+  void couple_with(std::span<const NearbyObject> objects) { tracker_.couple_with(objects); }
   /// Tracks the first hand from this pose, T_camera_segment, on.
   void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }
 

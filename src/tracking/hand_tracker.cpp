@@ -152,13 +152,6 @@ void HandTracker::commit(const HandObservation& observation, const Hypothesis& b
   track_.motion.restart(best.refined.pose, observation.frame->utime);
 }
 
-void HandTracker::see_objects(std::span<const NearbyObject> objects) {
-  context_.objects.clear();
-  if (!context_.params.refinement.objects.enabled) return;
-  for (const NearbyObject& nearby : objects)
-    if (nearby.hand_id < 0 || nearby.hand_id == estimates_.hand_id()) context_.objects.push_back(nearby);
-}
-
 void HandTracker::apply(const TrackRequest& request) {
   if (const auto* start = std::get_if<StartAt>(&request)) {
     given_start_ = start->pose;
@@ -170,6 +163,8 @@ void HandTracker::apply(const TrackRequest& request) {
     person_.use(other->profile);
   } else if (const auto* mismatch = std::get_if<NoteSizeMismatch>(&request)) {
     person_.note_size_mismatch(mismatch->size);
+  } else if (const auto* near = std::get_if<CoupleWith>(&request)) {
+    context_.couple_with(near->objects, estimates_.hand_id());
   } else if (const auto* changed = std::get_if<UseParams>(&request)) {
     // Do first what may throw, so that an exception leaves everything unchanged.
     std::shared_ptr<Observer> observer = context_.observer_for(changed->params);

@@ -33,7 +33,12 @@ struct UseParams {
 struct NoteSizeMismatch {
   double size;  ///< size of the hand in view, as a factor on the profile's size
 };
-using TrackRequest = std::variant<StartAt, ResetTracker, UseProfile, UseParams, NoteSizeMismatch>;
+/// Let these known objects, which are near the hands, couple with the hand until the next such request, if
+/// `refinement.objects.enabled` says so. Those that another hand holds are left out.
+struct CoupleWith {
+  std::span<const NearbyObject> objects;
+};
+using TrackRequest = std::variant<StartAt, ResetTracker, UseProfile, UseParams, NoteSizeMismatch, CoupleWith>;
 
 /// The state of a track between two frames, for code outside the tracker.
 struct TrackView {
@@ -72,9 +77,6 @@ class HandTracker {
                           std::span<const Decision> decisions = {});
   /// Returns the best pose that up to `attempts` searches find in the next observation (Proposers::search_frame).
   std::optional<Hypothesis> search(const HandObservation& observation, Effort effort, int attempts);
-  /// Tells the tracker which known objects are near the hands, before the frame in which they count. They couple with
-  /// the hand if `refinement.objects.enabled` says so, unless another hand holds them.
-  void see_objects(std::span<const NearbyObject> objects);
   /// Executes a request between two frames. UseParams may throw; then nothing has changed.
   void apply(const TrackRequest& request);
   TrackView view() const;

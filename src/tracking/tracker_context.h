@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/log.h"
@@ -27,6 +28,14 @@ struct TrackerContext {
   std::shared_ptr<Observer> observer_for(const TrackerParams& other) const {
     if (same_observer(params.segment_tracker, other.segment_tracker)) return observer;
     return make_observer(other.segment_tracker, workers, log);
+  }
+
+  /// Keeps those of the `nearby` objects that no other hand than `hand_id` holds; none if they are switched off.
+  void couple_with(std::span<const NearbyObject> nearby, std::int32_t hand_id) {
+    objects.clear();
+    if (!params.refinement.objects.enabled) return;
+    for (const NearbyObject& object : nearby)
+      if (object.hand_id < 0 || object.hand_id == hand_id) objects.push_back(object);
   }
 };
 

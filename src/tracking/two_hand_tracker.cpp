@@ -53,8 +53,8 @@ void TwoHandTracker::renew_verifiers() {
                                                              count() == 1 ? log_ : make_silent_logger()));
 }
 
-void TwoHandTracker::see_objects(std::span<const NearbyObject> objects) {
-  for (const auto& hand : hands_) hand->see_objects(objects);
+void TwoHandTracker::couple_with(std::span<const NearbyObject> objects) {
+  for (const auto& hand : hands_) hand->apply(CoupleWith{objects});
 }
 
 HandEstimates TwoHandTracker::process(const HandObservations& observations) {

@@ -26,8 +26,8 @@ class TwoHandTracker {
   /// Processes one frame. `observations`: one per hand; they are in the order of the profiles if preprocessing had
   /// feedback, and in any order otherwise (see by_hand()). Returns the estimates in the order of the profiles.
   HandEstimates process(const HandObservations& observations);
-  /// Tells every hand which known objects are near; see HandTracker.
-  void see_objects(std::span<const NearbyObject> objects);
+  /// Lets every hand couple with the known objects near it (CoupleWith).
+  void couple_with(std::span<const NearbyObject> objects);
   int count() const { return static_cast<int>(hands_.size()); }
   /// The tracker of the k-th hand.
   HandTracker& hand(int k) { return *hands_[k]; }

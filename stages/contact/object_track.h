@@ -14,14 +14,14 @@ namespace barehand {
 /// assign the object's points, then call update().
 struct ObjectTrack {
   ObjectEstimate state;
-  ObjectModel model;                        ///< of nothing while the object is open
-  std::vector<const SurfacePoint*> points;  ///< its points in this frame; empty after update()
-  SE3 predicted;                            ///< T_camera_object in this frame
-  Eigen::Vector3d centre;                   ///< centre of the points that were seen last, camera frame [m]
-  bool open = false;                        ///< it continues out of view, as a table does: it has no model
-  bool placed = false;                      ///< some of its points lie on its model in this frame
-  int touches = 0;                          ///< segments that touched it in the last frame
-  std::int64_t seen = 0;                    ///< time of the last frame with a part of it [us]
+  ObjectModel model;                                 ///< of nothing while the object is open
+  std::vector<const SurfacePoint*> points;           ///< its points in this frame; empty after update()
+  SE3 predicted;                                     ///< T_camera_object in this frame
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the points that were seen last, camera frame [m]
+  bool open = false;                                 ///< it continues out of view, as a table does: it has no model
+  bool placed = false;                               ///< some of its points lie on its model in this frame
+  int touches = 0;                                   ///< segments that touched it in the last frame
+  std::int64_t seen = 0;                             ///< time of the last frame with a part of it [us]
 
   bool modelled() const { return !open && model.has_surface(); }
 

@@ -19,9 +19,10 @@ class Holding {
   std::optional<SE3> carried(const HandEstimates& estimates) const;
 
  private:
-  std::int32_t hand_ = -1;          // hand_id of the nearest palm in the last frame; -1: none
-  SE3 T_palm_object_;               // in that frame
-  Eigen::Vector3d in_palm_, palm_;  // place in that palm, and place of the palm, since when the object has kept to it
+  std::int32_t hand_ = -1;  // hand_id of the nearest palm in the last frame; -1: none
+  SE3 T_palm_object_;       // in that frame
+  // Since when the object has kept to its place in that palm: that place, and the place of the palm.
+  Eigen::Vector3d in_palm_ = Eigen::Vector3d::Zero(), palm_ = Eigen::Vector3d::Zero();
   bool held_ = false;
   std::int64_t since_ = 0;
 };
