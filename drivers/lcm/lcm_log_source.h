@@ -18,16 +18,16 @@ namespace barehand {
 
 struct LcmLogOptions {
   std::string channel = {};  ///< a name, or a glob (matches_glob) like "CAM_*"; "": the only channel with frames
-  std::optional<std::int64_t> start = {};  ///< index of the first frame; none: the first or, backwards, the last
+  std::optional<std::int64_t> start = {};  ///< index of the first frame; none: the first; backwards: the last
   std::int64_t step = 1;                   ///< every step-th frame; negative plays backwards
   GivenIntrinsics foreign = {};
 };
 
 /// Replays the frames of an LCM log (rgbd_frame_t, kinect.frame_msg_t, bot_core.images_t), or of a folder or set of
-/// logs (find_logs) one after the other, without dropping any. A truncated or damaged log replays every complete event;
-/// among several logs, one without any is left out. Messages of another type, damaged messages and frames that
-/// FrameOrder rejects come as SkippedFrame. Frames in rgbd_frame_t keep their numbers as long as these increase; frames
-/// of other types are numbered by their index.
+/// logs (find_logs) one after the other, without dropping any frame. All complete events of a truncated or damaged log
+/// are replayed; among several logs, one without any complete event is left out. For messages of another type, damaged
+/// messages and frames that FrameOrder rejects, next() returns a SkippedFrame. Frames in rgbd_frame_t keep their
+/// numbers as long as these increase; frames of other types are numbered by their index.
 class LcmLogSource : public FrameSource {
  public:
   /// Errors: no LCM log, a folder without any, no matching channel (the error names those that exist), several channels
@@ -40,13 +40,13 @@ class LcmLogSource : public FrameSource {
 
   /// Number of events that `next` will still deliver, for showing progress.
   std::int64_t remaining() const { return position_.remaining(); }
-  /// Rate of the frames by the median of the times between them, rounded to 0.01 Hz; 0: not known.
+  /// Frame rate [Hz], computed from the median time between two frames and rounded to 0.01 Hz; 0: not known.
   double fps() const;
   /// Number of bytes that belong to no complete event; 0 for a healthy log.
   std::int64_t damaged_bytes() const;
   /// The reason for each log that was left out: it cannot be read, holds nothing, or is still being written.
   const std::vector<Error>& left_out() const { return left_out_; }
-  /// Warnings about the frames' time stamps and about unfinished logs, in sentences.
+  /// Warnings for the user about the frames' time stamps and about unfinished logs.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:

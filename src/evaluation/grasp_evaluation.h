@@ -12,21 +12,23 @@
 
 namespace barehand {
 
-// Compares stated grasps with the truth.
+// Compares the grasps that the tracker reported ("stated" grasps) with the true ones.
 
-/// A probability from which a statement is confident.
+/// A stated class counts as confident if its probability is at least this.
 inline constexpr double kConfidentGrasp = 0.9;
-/// Time before and after a grasp in which a hand that holds nothing is closing or opening, and is not compared [us].
+/// Frames without a grasp that are closer to a grasp than this time are not compared, since the hand is closing or
+/// opening [us].
 inline constexpr std::int64_t kClosingUs = 600'000;
 
-/// The grasp in each frame, by its time [us]: 0: none, otherwise 1 + the index in grasp_types().
+/// The true grasp of each frame, by the frame's time [us]. 0 means no grasp; otherwise, it is 1 + the index in
+/// grasp_types().
 using GraspTruth = std::map<std::int64_t, int>;
 /// Reads a table of grasps (docs/formats.md). Errors name the line: an unknown class, a malformed number.
 Result<GraspTruth> read_grasp_truth(const std::string& path);
 
 /// The grasp that a log of hand states contains for one frame.
 struct StatedGrasp {
-  bool known = false;  ///< false: the classes are UNKNOWN
+  bool known = false;  ///< false: the log states UNKNOWN
   int grasp = 0;       ///< class, numbered as in GraspTruth
   double probability = 0;
   GraspKind kind = GraspKind::none;
@@ -34,7 +36,7 @@ struct StatedGrasp {
 /// The stated grasps by the time of their frames [us].
 using StatedGrasps = std::map<std::int64_t, StatedGrasp>;
 
-/// How the frames of one true class were stated.
+/// Counts what was stated in the frames of one true class.
 struct GraspCounts {
   std::size_t frames = 0, unknown = 0;
   std::size_t right = 0;       ///< the class is right
@@ -47,13 +49,13 @@ struct GraspCounts {
   }
 };
 
-/// Stated against true grasps. Frames in which nothing is stated count as wrong, but not as confident.
+/// Result of comparing stated with true grasps. Frames in which nothing is stated count as wrong, but not as confident.
 struct GraspEvaluation {
   std::array<GraspCounts, kGraspCount> classes;  ///< counts for each true class
   GraspCounts held;                              ///< all frames with a grasp
   double held_seconds = 0;
   std::size_t changes = 0;                    ///< number of changes of the stated class while the same grasp lasts
-  std::vector<ReliabilityBin> probabilities;  ///< stated probability of the class against the fraction that is right
+  std::vector<ReliabilityBin> probabilities;  ///< mean stated probability, and fraction of frames with the right class
 
   double changes_per_second() const { return held_seconds > 0 ? static_cast<double>(changes) / held_seconds : 0; }
 };
@@ -63,8 +65,8 @@ struct GraspSequence {
   GraspTruth truth;
   StatedGrasps stated;
 };
-/// Evaluates several sequences over the frames of their truths. Error: the tables of a sequence have no frame in
-/// common.
+/// Evaluates several sequences in the frames whose true grasps are known. Error: the two tables of a sequence have no
+/// frame in common.
 Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequences);
 
 }  // namespace barehand

@@ -1,3 +1,4 @@
+// Distances from a triangle mesh and its winding numbers, by a tree of bounding boxes.
 #include "math/mesh_distance.h"
 
 #include <Eigen/Geometry>
@@ -13,13 +14,13 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-constexpr std::uint32_t kLeaf = 4;  // triangles of a leaf
-constexpr double kFar = 3.0;        // nodes farther than this many of their radii count as one dipole
+constexpr std::uint32_t kLeaf = 4;  // largest number of triangles in a leaf
+constexpr double kFar = 3.0;        // a node farther than this many of its radii is approximated by one dipole
 
 /// Barycentric coordinates of the place in a triangle that is nearest to p (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
 Vector3d nearest_weights(const Corners& c, const Vector3d& p) {
-  // Regions of the three corners.
+  // Return a corner if p is in its Voronoi region.
   const Vector3d ab = c[1] - c[0], ac = c[2] - c[0];
   const double d1 = ab.dot(p - c[0]), d2 = ac.dot(p - c[0]);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
@@ -28,14 +29,14 @@ Vector3d nearest_weights(const Corners& c, const Vector3d& p) {
   const double d5 = ab.dot(p - c[2]), d6 = ac.dot(p - c[2]);
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
 
-  // Regions of the three edges.
+  // Return a place on an edge if p is in its Voronoi region.
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
   const double along = d4 - d3, against = d5 - d6;
   if (va <= 0 && along >= 0 && against >= 0) return {0, against / (along + against), along / (along + against)};
 
-  // The face. A degenerate triangle has no area and was handled above, except for rounding.
+  // Otherwise, the nearest place is inside the face. Degenerate triangles were handled above, except for rounding.
   const double sum = va + vb + vc;
   return sum > 0 ? Vector3d(va / sum, vb / sum, vc / sum) : Vector3d(1, 0, 0);
 }
@@ -67,7 +68,7 @@ Corners MeshDistance::corners(std::uint32_t triangle) const {
 }
 
 std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
-  // Measure the triangles: bounding box, sum of the normals and centroid, which is weighted by area.
+  // Compute the bounding box of the triangles, the sum of area times normal, and the area-weighted centroid.
   Node node;
   node.lower.setConstant(std::numeric_limits<double>::max());
   node.upper = -node.lower;
@@ -91,12 +92,12 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
   }
   node.centre /= weight;
 
-  // Measure the sphere around the centroid.
+  // Compute the radius of the smallest sphere around the centroid that contains all triangles.
   for (std::uint32_t i = first; i < first + count; ++i)
     for (const Vector3d& corner : corners(order_[i]))
       node.radius = std::max(node.radius, (corner - node.centre).norm());
 
-  // Make a leaf, or split the list of triangles into halves along the longest side.
+  // Make a leaf if there are few triangles.
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
   if (count <= kLeaf) {
@@ -105,7 +106,7 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
     return index;
   }
 
-  // Sort by the triangles' middles.
+  // Otherwise, split the list at the median of the triangles' centres along the longest side of the box.
   int axis = 0;
   (node.upper - node.lower).maxCoeff(&axis);
   const auto place = [&](std::uint32_t t) {
@@ -123,7 +124,7 @@ std::uint32_t MeshDistance::build(std::uint32_t first, std::uint32_t count) {
 }
 
 void MeshDistance::search(std::uint32_t index, const Vector3d& p, Nearest& best) const {
-  // Measure the triangles of a leaf.
+  // In a leaf, compute the distance of every triangle.
   const Node& node = nodes_[index];
   if (node.count > 0) {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -135,7 +136,7 @@ void MeshDistance::search(std::uint32_t index, const Vector3d& p, Nearest& best)
     return;
   }
 
-  // Search the nearer child first; leave out those that are too far.
+  // Search the nearer child first, and skip a child whose box is farther away than the nearest triangle so far.
   std::array<std::uint32_t, 2> child = {index + 1, node.right};
   std::array<double, 2> gap{};
   for (int k = 0; k < 2; ++k) gap[k] = distance_from_box(nodes_[child[k]].lower, nodes_[child[k]].upper, p);
@@ -145,7 +146,7 @@ void MeshDistance::search(std::uint32_t index, const Vector3d& p, Nearest& best)
 }
 
 double MeshDistance::solid_angle(std::uint32_t index, const Vector3d& p) const {
-  // A far node is one dipole (Barill et al. 2018).
+  // Approximate a far node by one dipole (Barill et al. 2018).
   const Node& node = nodes_[index];
   const Vector3d to_centre = node.centre - p;
   const double distance = to_centre.norm();

@@ -28,7 +28,9 @@ constexpr double kRobustNoise = 2;     // part that is due to the sensor, relati
 
 // Strength of fold_penalty(): with 10, a skinning weight of 0.1 halves the information and one of 0.5 leaves 1 / 26.
 constexpr double kFolds = 10;
-constexpr double kKnuckleFolds = 30;  // strength between palm and fingers, where webs move with more than two bones
+// Strength of fold_penalty() between palm and fingers: the webs of skin there move with more than two bones, so that
+// the skin model, which blends two segments, is less accurate.
+constexpr double kKnuckleFolds = 30;
 
 constexpr float kGate = 0.012f;         // larger surface distances are outliers [m]
 constexpr float kFacing = 0.3f;         // smallest cosine of the viewing angle: grazing skin is not measured well
@@ -105,8 +107,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     if (c.kind != Correspondence::Kind::surface || std::abs(r) > kGate) continue;
     if (-c.model.normalized().dot(c.normal) < kFacing) continue;
     const SkinVertex& v = model.skin.vertices[c.vertex];
-    // Near joints, skin folds and bulges in the same way in all frames, which would pull joints away from their
-    // places.
+    // Give vertices near joints less weight: skin folds and bulges there in the same way in all frames, and this error
+    // would shift the estimated joints.
     const double folds = joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds;
     const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, folds);
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));

@@ -14,8 +14,8 @@ namespace barehand {
 /// result table could not represent them with its precision.
 inline constexpr std::int64_t kLatestUtime = 100'000'000'000'000'000;
 
-/// If a time stamp is earlier than the previous one by at least this [us], the recorder was restarted; if by less, the
-/// frame is a repetition or arrived late.
+/// If a time stamp is earlier than the previous one by at least this [us], the recorder was restarted. If it is earlier
+/// by less than this, the frame is a repetition or arrived late.
 inline constexpr std::int64_t kRestart = 1'000'000;
 
 /// The unit in which a source states its time stamps. It is only used in messages for the user.

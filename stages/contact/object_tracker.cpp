@@ -1,3 +1,4 @@
+// Assigns the surfaces that are seen in a frame to objects; starts, merges and removes the tracks of objects.
 #include "stages/contact/object_tracker.h"
 
 #include <algorithm>
@@ -8,13 +9,15 @@ namespace {
 
 constexpr int kSpeck = 8;            // fewer points than this (about 1 cm^2) do not make an object
 constexpr double kSamePlace = 0.05;  // an object without a model moves at most this far between two frames [m]
-constexpr double kOpenPlace = 0.2;   // limit for the middle of the visible part of a table [m]
+constexpr double kOpenPlace = 0.2;   // the same for the centre of the visible part of a table [m]
 // A component belongs to an object if this fraction of its points lies on the model of the object.
 constexpr double kOverlap = 0.4;
-constexpr double kGone = 0.25;  // contradiction of a model from which on the object is no longer at its place
+// An object has left its place if at least this fraction of its model's surface is seen to be empty space.
+constexpr double kGone = 0.25;
 // Two objects are the same one if this fraction of a component of one lies on the model of the other.
 constexpr double kSame = 0.7;
-// Times after which an object that is not seen is forgotten [us]: while it is not held, and while it is held.
+// Times after which an object that is not seen any more is forgotten [us]: kForgotten if it was not held,
+// kForgottenHeld if it was.
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
 constexpr double kLongest = 0.25;  // longest time between two frames from which a velocity is computed [s]
 
@@ -23,7 +26,7 @@ constexpr double kLongest = 0.25;  // longest time between two frames from which
 void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
                             const std::vector<bool>& open, std::vector<SurfacePoint>& points,
                             FrameVector<ObjectEstimate>& objects) {
-  // Assign the points to objects, by the models of the objects so far.
+  // Assign the points to the objects of earlier frames or to new ones.
   links_.link(open, points);
   all_.clear();
   for (const SurfacePoint& point : points) all_.push_back(&point);
@@ -65,8 +68,8 @@ bool ObjectTracker::seen_empty(std::int32_t object, const Eigen::Vector3f& p) co
   return false;
 }
 
-/// Gives every component to the model on which most of it lies. What continues out of view, as a table does, is never
-/// given to the model of what stands on it; specks at its border may be.
+/// Assigns every component to the track on whose model most of its points lie. A component that continues out of view,
+/// as a table does, is not assigned to the model of an object that stands on it, unless the component is a speck.
 void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
                                  const std::vector<SurfacePoint>& points) {
   // Count the points of each component on each model.
@@ -83,7 +86,8 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
       near_[t * components + point.component] += tracks_[t].model.near(R * (point.p - origin));
   }
 
-  // An object on a table may be in one component with it. Its model shows whether it is still there.
+  // A component that continues out of view, such as a table, may contain an object that stands on it. The object counts
+  // as seen if points of the component are near the object's model and the frame does not contradict the model.
   owner_.assign(components, -1);
   for (std::size_t i = 0; i < components; ++i) {
     if (links_.open(static_cast<std::int32_t>(i)) && count_[i] >= kSpeck) {
@@ -109,9 +113,9 @@ void ObjectTracker::match_models(std::int64_t utime, const ObservedSpace& space,
   }
 }
 
-/// Assigns every object that lies on no model to the nearest track, or to a new one.
+/// Assigns every cluster of linked components that lie on no model to the nearest track, or to a new one.
 void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfacePoint>& points) {
-  // Add up the points of each object that is on no model, and find the objects that continue out of view.
+  // Add up the points of each cluster, and find the clusters that continue out of view.
   clusters_.assign(static_cast<std::size_t>(links_.components()), {});
   for (std::int32_t i = 0; i < links_.components(); ++i)
     if (links_.open(i)) clusters_[links_.root(i)].open = true;
@@ -122,10 +126,10 @@ void ObjectTracker::match_centres(std::int64_t utime, const std::vector<SurfaceP
     ++cluster.count;
   }
 
-  // Join the nearest pairs of an object and a track that are both free.
+  // Assign clusters to tracks that were not seen yet in this frame, beginning with the nearest pair.
   const std::size_t known = tracks_.size();
   while (true) {
-    // Find the nearest of the free pairs.
+    // Find the nearest pair of an unassigned cluster and a track that was not seen yet.
     Cluster* best = nullptr;
     std::size_t best_track = 0;
     double least = 1;
@@ -180,7 +184,7 @@ void ObjectTracker::merge(std::int64_t utime) {
   }
 }
 
-/// Assigns the points to the tracks, in both directions.
+/// Stores the object of each point, and the points of each track. Removes points that belong to no object.
 void ObjectTracker::give_points(std::vector<SurfacePoint>& points) {
   for (SurfacePoint& point : points) {
     const int owner = owner_[point.component], t = owner >= 0 ? owner : clusters_[links_.root(point.component)].track;

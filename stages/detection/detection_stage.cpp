@@ -71,14 +71,14 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
     return nullptr;
   }
   if (whole) sort_by_probability(detection->hands, wanted(feedback));
-  // While a hand is missing, whole_frame is set even in frames in which only windows were searched, so that
-  // preprocessing does not mistake undetected data for the missing hand.
+  // While a hand is missing, set whole_frame even if this frame was not searched as a whole: preprocessing then starts
+  // the missing hand only where the networks find it, not at any other surface.
   detection->whole_frame = !all_tracked;
   return std::make_shared<const Detection>(std::move(*detection));
 }
 
 std::optional<Handedness> DetectionStage::wanted(std::span<const HandEstimatePtr> feedback) const {
-  // A command may have changed the profile, so the feedback knows the side better than the configuration.
+  // Prefer the side in the feedback to the one in the configuration, since a command may have changed the profile.
   return only_ && feedback.size() == 1 && feedback[0] ? feedback[0]->handedness : only_;
 }
 

@@ -28,9 +28,10 @@ class BeliefPropagation {
   /// parent[i] < i is the parent of node i; parent[0] = -1.
   explicit BeliefPropagation(std::span<const int> parent);
 
-  /// Computes the belief of every node. log_phi[i][k]: finite log observation of sample k of node i, at least one
-  /// sample per node. energy[i]: the edge from i to its parent; energy[0] is unused. `log_beliefs`: one list per node,
-  /// normalised so that the exponentials sum to 1. The result does not depend on the number of workers.
+  /// Computes the belief of every node. log_phi[i][k]: log of the observation potential phi of sample k of node i,
+  /// which must be finite; at least one sample per node. energy[i]: the edge from i to its parent; energy[0] is unused.
+  /// `log_beliefs`: one list per node, normalised so that the exponentials sum to 1. The result does not depend on the
+  /// number of workers.
   void run(std::span<const std::vector<double>> log_phi, std::span<const EdgeEnergy> energy, Marginals marginals,
            Workers& workers, std::span<std::vector<double>> log_beliefs);
 

@@ -18,7 +18,7 @@ constexpr float kLeastFacing = 0.05f;  // smallest cosine to the view ray; at gr
 constexpr int kLanes = 8;               // number of neighbouring pixels that are fitted together
 constexpr int kMostSpacing = 12;        // largest distance between samples [pixels]
 constexpr int kPad = 2 * kMostSpacing;  // reach of the samples, hence width of the border [pixels]
-constexpr float kNoHand = -1e3f;        // depth that stands for pixels which are not hand: far outside every gate [m]
+constexpr float kNoHand = -1e3f;        // depth of pixels outside the hand: so far away that every gate rejects it [m]
 
 using Lanes = std::array<float, kLanes>;
 
@@ -83,7 +83,7 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
   const float fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   Lanes slope_u, slope_v, valid;
 
-  // Fit several neighbouring pixels at once.
+  // Fit the planes of kLanes neighbouring pixels at once.
   for (int v = 0; v < height; ++v) {
     const std::uint8_t* hand = mask.row(v);
     for (int u = 0; u < width; ++u) {
@@ -109,8 +109,10 @@ void NormalFitter::fit(const Image<std::uint8_t>& mask, double radius, HandObser
 }
 
 double NoiseMeter::measure(const Image<std::uint8_t>& mask, const Image<float>& depth, double floor) {
-  constexpr int kSpan = 6;                      // columns of a third difference of every second pixel
-  constexpr double kToSigma = 1.4826 / 4.4721;  // median absolute difference to sigma; over sqrt(1 + 9 + 9 + 1)
+  constexpr int kSpan = 6;  // width of a third difference over every second pixel [pixels]
+  // Converts the median absolute third difference to a standard deviation: 1.4826 holds for normally distributed noise,
+  // and a third difference has sqrt(1 + 9 + 9 + 1) = 4.4721 times the noise of a pixel.
+  constexpr double kToSigma = 1.4826 / 4.4721;
   constexpr std::size_t kFewest = 50;
 
   // Collect third differences of the depth, which do not change with the slope and curvature of the surface.

@@ -15,8 +15,8 @@ namespace barehand {
 /// on the learn() calls and their order.
 class SkinModel {
  public:
-  /// `rate`: weight of one learn() in the histograms; `share`: weight of a fully learned histogram relative to the
-  /// generic density.
+  /// `rate`: weight of one learn() in the histograms; `share`: weight of a fully learned histogram, in [0, 1]; the
+  /// generic density has the rest.
   SkinModel(double rate, double share);
 
   /// log p(colour | skin) - log p(colour | other), damped for dark and overexposed pixels; 0 = no evidence.

@@ -15,10 +15,11 @@ constexpr int kBlock = 64;         // points per block: their intermediate resul
 
 /// Intermediate results for a block of skin points.
 struct Block {
-  std::array<float, kBlock> x, y, z, weight;  ///< position [m] and covered pixels; 0 for points that face away
-  std::array<std::int32_t, kBlock> pixel;     ///< index of the pixel in the map
+  std::array<float, kBlock> x, y, z,       ///< position in the camera frame [m]
+      weight;                              ///< number of pixels that the point covers; 0 if it faces away
+  std::array<std::int32_t, kBlock> pixel;  ///< index of the pixel in the map
   std::array<PixelMap::Cell, kBlock> cell;
-  std::array<std::int32_t, kBlock> hidden;
+  std::array<std::int32_t, kBlock> hidden;  ///< PixelMap::hidden at the pixel
 };
 
 /// The sample's pose and the camera in single precision.

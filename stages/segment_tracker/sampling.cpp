@@ -1,4 +1,4 @@
-// Draws samples of segment poses in boxes.
+// Draws samples of segment poses in the boxes of kernels (paper, Sec. 4.4).
 #include "stages/segment_tracker/sampling.h"
 
 #include <cassert>

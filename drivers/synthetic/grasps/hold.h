@@ -8,18 +8,18 @@ namespace barehand::synthetic {
 
 /// The shape of the part of an object by which fingers hold it.
 enum class HoldKind {
-  rod,   ///< round, held across its axis x
-  slab,  ///< two parallel faces, held across y
+  rod,   ///< a round bar along x
+  slab,  ///< two parallel faces, perpendicular to y
   ball,  ///< round in all directions
 };
 
-/// A part of an object by which it can be held. In the frame of the hold x is along a rod, and y is across: the
+/// A part of an object by which it can be held. In the frame of the hold, x is the axis of a rod, and y is the
 /// direction in which thumb and fingers oppose each other.
 struct Hold {
   HoldKind kind = HoldKind::ball;
   SE3 T_object_hold;
   double width = 0;   ///< extent along y [m]
-  double length = 0;  ///< for a rod or slab: largest extent across y [m]
+  double length = 0;  ///< for a rod or slab: largest extent perpendicular to y [m]
 };
 
 }  // namespace barehand::synthetic

@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kThickness = 0.03;  // thickness of the desk's top [m]
-constexpr double kApart = 0.17;      // minimum distance between the middle of a tall object and a free line [m]
-constexpr int kTallObjects = 6;      // number of tall objects to place; those too close to a free line are left out
+constexpr double kApart = 0.17;      // minimum distance between the centre of a tall object and the FreeLines [m]
+constexpr int kTallObjects = 6;      // number of tall objects to try; those too close to the FreeLines are left out
 
 SE3 standing_at(const Vector3d& place, double heading) { return {exp_so3({0, 0, heading}), place}; }
 
@@ -22,7 +22,7 @@ SceneObject make_slab(const char* name, const Vector3d& half_sides, const Rgb& c
   return {name, make_box(half_sides), {colour}};
 }
 
-/// A mug, a box or a cylinder about its centre, and its height [m].
+/// A random mug, box or cylinder with its centre at the origin, and its height [m].
 std::pair<SceneObject, double> make_tall_object(KeyedRandom& random) {
   const double kind = random.uniform();
   const auto shade = static_cast<std::uint8_t>(random.uniform(40, 220));

@@ -8,6 +8,8 @@
 
 namespace barehand {
 
+// The checks of `barehand doctor`, which finds out whether tracking will work on this machine.
+
 /// The result of one check of the machine.
 struct Finding {
   enum class Level {

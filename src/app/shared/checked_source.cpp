@@ -8,9 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr std::int64_t kRepeatEvery = 10'000'000;  // time [us] in which a problem of one kind is reported once
+constexpr std::int64_t kRepeatEvery = 10'000'000;  // a problem of one kind is reported at most once in this time [us]
 constexpr std::int64_t kStillFor = 1'000'000;      // an unchanged image of a recording is reported after this time [us]
-constexpr int kStillFrames = 10;                   // and only after this number of unchanged frames
+constexpr int kStillFrames = 10;                   // and only if at least this number of frames have this image
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 

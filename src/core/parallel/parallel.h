@@ -51,7 +51,7 @@ class Workers {
     --long_works_;
     return done;
   }
-  /// Whether a recording waits for long work now (see run_in_background()). Any thread may ask.
+  /// Whether run_in_background() is executing work for a recording now, and its caller waits. Any thread may ask.
   bool does_long_work() const { return long_works_ > 0; }
   /// Must be called when frames come from a live source, which long work must not delay (see run_in_background()).
   void go_live() { live_ = true; }
@@ -69,7 +69,7 @@ class Workers {
 
   int threads_;
   bool live_ = false;
-  std::atomic<int> long_works_ = 0;  ///< that are waited for
+  std::atomic<int> long_works_ = 0;  ///< number of calls of run_in_background() that wait for their work
   std::unique_ptr<TbbArena> arena_;  ///< null for one thread
 };
 

@@ -12,20 +12,21 @@ namespace barehand {
 
 // How the hands of one frame grasp.
 
-/// Probabilities of no grasp, at 0, and of the class k of grasp_types(), at k + 1.
+/// Number of grasp classes, including "no grasp", which has index 0. Class k of grasp_types() has index k + 1.
 inline constexpr int kGraspCount = 1 + kGraspTypeCount;
+/// The probability of each of these classes, by its index.
 using GraspProbabilities = std::array<double, kGraspCount>;
 
 /// How one hand grasps, according to its pose.
 struct HandGrasp {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  bool known = false;  ///< the hand is tracked; otherwise the other members are meaningless
+  bool known = false;  ///< whether the hand is tracked; if not, the other members are meaningless
   GraspProbabilities probabilities{};
   int grasp = 0;               ///< 0: none, otherwise 1 + the index in grasp_types()
   std::int64_t since = 0;      ///< time of the first frame with the present `grasp` [us since the epoch]
   double aperture = kUnknown;  ///< distance from the thumb's tip to the mean of the tips of virtual finger 2 [m]
-  double closure = kUnknown;   ///< mean flexion of the fingers over their range: 0 flat, 1 fist
+  double closure = kUnknown;   ///< mean flexion of the fingers relative to their range: 0 flat, 1 fist
 };
 
 /// How the hands of one frame grasp, in the order of the frame's estimates. Immutable once shared.

@@ -33,7 +33,7 @@ Result<double> checked(const Object& object, const char* key, const Json& value,
   return number;
 }
 
-/// The line and the column of a text's byte, which counts from 1.
+/// Describes the position of a byte in a text by its line and column. `byte` is the byte's number, from 1.
 std::string place_in(const std::string& text, std::size_t byte) {
   const std::string_view before = std::string_view(text).substr(0, std::max<std::size_t>(byte, 1) - 1);
   const auto line = 1 + std::ranges::count(before, '\n');
@@ -59,7 +59,7 @@ Result<Json> parse_json(const std::string& text, const std::string& where) {
 }
 
 Result<void> write_json(const std::string& path, const Json& json) {
-  // A path in the text may be invalid UTF-8; its wrong bytes are replaced.
+  // A path in the text may be invalid UTF-8; its invalid bytes are replaced.
   return write_file_atomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

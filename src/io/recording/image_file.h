@@ -8,8 +8,8 @@
 
 namespace barehand {
 
-/// Reads a PNG with one channel of 16 bits; the values are returned as stored. A file that is missing, damaged or of
-/// another kind is an error that names it.
+/// Reads a PNG with one channel of 16 bits; the values are returned as stored. Errors: the file is missing, damaged or
+/// of another kind; the message names the file.
 Result<Image<std::uint16_t>> read_depth_png(const std::string& path);
 /// Reads an 8-bit colour PNG or JPEG. A truncated JPEG is an error; it is not filled up with grey.
 Result<Image<Rgb>> read_colour(const std::string& path);

@@ -7,7 +7,7 @@
 
 namespace barehand {
 namespace {
-// Minimum time between two skins of the same hand: a profile that is being learnt changes often.
+// Minimum time between two transmissions of a hand's skin, which changes often while its profile is being learnt [us].
 constexpr std::int64_t kSkinPeriodUs = 2'000'000;
 }  // namespace
 

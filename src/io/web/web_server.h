@@ -20,10 +20,10 @@ namespace barehand {
 
 /// Why the server closes a connection.
 struct Farewell {
-  static constexpr int kDone = 1000;             ///< nothing more will come, so that connecting again is of no use
-  static constexpr int kStopped = 1001;          ///< the program stops and may come back
-  static constexpr int kTryAgainLater = 1013;    ///< there is no place for the client now
-  int code = kStopped;                           ///< code of the WebSocket's end (RFC 6455)
+  static constexpr int kDone = 1000;             ///< nothing more will be sent, so the client should not connect again
+  static constexpr int kStopped = 1001;          ///< the program stops and may be started again
+  static constexpr int kTryAgainLater = 1013;    ///< too many clients are connected now
+  int code = kStopped;                           ///< close code of the WebSocket protocol (RFC 6455)
   std::string reason = "Barehand was stopped.";  ///< for the user; at most 123 bytes
 };
 
@@ -66,7 +66,7 @@ struct WebFile {
 class WebServer {
  public:
   static constexpr int kMaxClients = 32;    ///< maximum number of WebSockets with a peer
-  static constexpr int kMaxTurnedAway = 8;  ///< further ones that are just being told that there is no place for them
+  static constexpr int kMaxTurnedAway = 8;  ///< maximum number of further WebSockets that are being refused
   static constexpr int kStuckSeconds = 10;  ///< a client that accepts nothing for this time is disconnected
 
   struct Options {

@@ -31,7 +31,8 @@ struct PatchDistance {
 struct SampleBatch {
   const std::shared_ptr<const HandSurface>& surface;  ///< equal pointers mean the same skin
   const PixelMap& map;
-  std::uint64_t map_id;  ///< for one skin, equal ids mean equal maps: no need to copy
+  /// Batches with the same `surface` and the same id have the same map, so a device need not copy the map again.
+  std::uint64_t map_id;
   const std::array<std::vector<SE3>, kSegmentCount>& poses;  ///< T_camera_segment, the same number for every segment
   int first_segment = 0;                                     ///< segments with a smaller index are not compared
 
