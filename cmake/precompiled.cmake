@@ -12,7 +12,7 @@ add_library(barehand_headers OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(barehand_headers PUBLIC barehand_settings ${common_libraries})
 target_precompile_headers(barehand_headers PRIVATE ${common_headers})
 
-# The code of commands runs once, so that it is optimised less. Headers of the option parser are left out: what they
+# Commands do little work of their own, so that they are optimised less. Headers of the option parser are left out: what they
 # instantiate would be compiled in every file anew, which takes four seconds.
 add_library(barehand_command_headers OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(barehand_command_headers PUBLIC barehand_settings ${common_libraries})

@@ -132,6 +132,7 @@ function showContacts() {
 }
 function toggleContacts() {
   if (hasContacts()) return toggle("touches");
+  if (shown === null) return;
   hint = kNoContacts;
   hintUntil = performance.now() + kHintMs;
 }

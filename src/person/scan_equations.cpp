@@ -129,7 +129,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     const Vector3d normal = c.normal.cast<double>(), model_point = c.model.cast<double>();
     const double by_weight = normal.dot(posed(v.b, v.in_b) - posed(v.a, v.in_a));
 
-    // A twist moves the vertex by its share of the skinning weight.
+    // A twist of a segment moves the vertex in proportion to the segment's skinning weight.
     const auto twist = [&](int s, double skin_weight) {
       PoseColumn column;
       column.head<3>() = skin_weight * normal;

@@ -9,11 +9,18 @@
 namespace barehand {
 namespace {
 
-/// Whether a key cannot change while the pipeline runs: sources, channels and limits of failures are set up once, and
-/// a fit to the person that has begun keeps its parameters.
+/// Whether a key cannot change while the pipeline runs: sources, channels, limits of failures and couplings are set up
+/// once, and a fit to the person that has begun keeps its parameters.
 bool fixed(const std::string& key) {
-  constexpr const char* kFixed[] = {"run.",   "contact.",        "grasp.",   "detection.",
-                                    "world.", "foreign_camera.", "openni2.", "tracker.shape_fit."};
+  constexpr const char* kFixed[] = {"run.",
+                                    "contact.",
+                                    "grasp.",
+                                    "detection.",
+                                    "world.",
+                                    "foreign_camera.",
+                                    "openni2.",
+                                    "tracker.shape_fit.",
+                                    "tracker.refinement.objects.enabled"};
   return std::any_of(std::begin(kFixed), std::end(kFixed), [&](const char* group) { return key.starts_with(group); });
 }
 
@@ -39,6 +46,7 @@ Reload::Changes Reload::apply(const Config& wanted) {
   next.preprocess = wanted.preprocess;
   next.tracker = wanted.tracker;
   next.tracker.shape_fit = in_force_.tracker.shape_fit;
+  next.tracker.refinement.objects.enabled = in_force_.tracker.refinement.objects.enabled;
   next.publish = wanted.publish;
 
   // Post the changed groups to the stages and sinks that use them.

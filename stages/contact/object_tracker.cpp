@@ -178,6 +178,7 @@ void ObjectTracker::merge(std::int64_t utime) {
       ObjectTrack& other = tracks_[owner_[i]];
       if (track.state.id < other.state.id) std::swap(track.state.id, other.state.id);
       track = ObjectTrack();
+      track.state.id = -1;
       track.seen = utime - kForgotten - 1;
       break;
     }

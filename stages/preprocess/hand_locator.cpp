@@ -79,7 +79,8 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
   for (CoarseHand& hand : hands_) {  // hands without a match come last, as a held hand may be the nearest candidate
     if (hand.found) continue;
 
-    // Start where the networks found a hand, if they saw the whole frame; else at the most plausible surface.
+    // Start where the networks found a hand, if only such hands may start (Detection::whole_frame); else at the most
+    // plausible surface.
     if (detection && detection->whole_frame) {
       const DetectedHand* const detected = choose_detected(*detection);
       hand.found = detected && start_at(grid, *detected, hand);

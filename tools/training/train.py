@@ -61,7 +61,7 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 4 * batch if options.smoke else batch)
     before = _loss(network, name, unseen)
 
-    # Train with new examples in every step.
+    # Train, with new examples after every few passes.
     batches = _batches(generator, name, batch, *((1, 1) if options.smoke else (_AT_ONCE, _PASSES)))
     while schedule.progress() < 1:
         for group in optimiser.param_groups:

@@ -109,7 +109,10 @@ class Page:
     def _acknowledge(self):
         if self._owes:
             self._owes = False
-            self._socket.send(b'{"type": "ack"}')
+            try:
+                self._socket.send(b'{"type": "ack"}')
+            except OSError:
+                pass  # what the server sent before it ended can still be read
 
     def _connect(self, timeout):
         self._socket, self._owes = None, False

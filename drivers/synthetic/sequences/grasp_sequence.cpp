@@ -100,7 +100,7 @@ GraspPlan plan_ball() {
 
 /// Grasp of pliers that lie in a rack with one handle above the other; the hand closes around both handles.
 GraspPlan plan_pliers() {
-  // Choose the orientation of the palm.
+  // Set the size and the height of the pliers, and the orientation of the palm.
   const PliersSize size;
   constexpr double kHeight = 0.11;
   GraspPlan plan;

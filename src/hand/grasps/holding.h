@@ -21,7 +21,7 @@ class Holding {
  private:
   std::int32_t hand_ = -1;  // hand_id of the nearest palm in the last frame; -1: none
   SE3 T_palm_object_;       // in that frame
-  // Since when the object has kept to its place in that palm: that place, and the place of the palm.
+  // Where the object was in that palm, and where the palm was, when the object came to its present place in it.
   Eigen::Vector3d in_palm_ = Eigen::Vector3d::Zero(), palm_ = Eigen::Vector3d::Zero();
   bool held_ = false;
   std::int64_t since_ = 0;

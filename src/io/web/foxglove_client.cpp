@@ -87,7 +87,8 @@ bool FoxgloveClient::receive(std::string_view text) {
   // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
   if (request && !request->subscribe.empty()) frames_.repeat();
   changed_.notify_all();
-  return !broken_;
+  // After a farewell the client is still read, until it closes, so that it loses nothing of what was sent.
+  return !broken_ || next_.farewell;
 }
 
 void FoxgloveClient::post(ViewFramePtr frame) {

@@ -47,7 +47,8 @@ bool ViewClient::receive(std::string_view text) {
     --under_way_;
   }
   changed_.notify_all();
-  return !broken_;
+  // After a farewell the client is still read, until it closes, so that it loses nothing of what was sent.
+  return !broken_ || next_.farewell;
 }
 
 /// Executes commands that concern the program as a whole.

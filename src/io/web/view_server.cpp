@@ -51,6 +51,7 @@ ViewServer::~ViewServer() {
   if (!web_) return;
   {
     const std::lock_guard lock(mutex_);
+    ended_ = true;
     for (ViewClient* client : clients_) client->end(farewell_);
   }
   foxglove_.end(farewell_);
@@ -71,6 +72,7 @@ std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
   clients_count_ = static_cast<int>(clients_.size());
   if (status_) client->post_status(status_);
   if (frame_) client->post(frame_);
+  if (ended_) client->end(farewell_);
   return client;
 }
 

@@ -72,6 +72,7 @@ class ViewServer {
   ViewFramePtr frame_;
   StatusText status_;
 
+  bool ended_ = false;  // clients that connect now get the farewell, too
   Farewell farewell_;
   FoxgloveClients foxglove_;
   std::unique_ptr<WebServer> web_;  // declared last, so destroyed first: it disconnects all clients

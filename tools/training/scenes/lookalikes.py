@@ -177,7 +177,7 @@ def _cloth(chance: Chance, rays: Tensor, place: Tensor) -> Tensor:
     height = length * chance.uniform(0.02, 0.14, count, 1, 1, 3)
     phase, slant = chance.uniform(0, 6.3, count, 1, 1, 3), chance.normal(0.3, count, 1, 1, 3)
 
-    # The waves change the depth at which a ray meets the sheet; two steps of a fixed-point iteration suffice.
+    # The waves change the depth at which a ray meets the sheet; three steps of a fixed-point iteration suffice.
     slope = (rays * normal[:, None, None]).sum(-1).clamp_max(-0.05)
     level = (place * normal).sum(1)[:, None, None]
     depth = hit_plane(rays, place, normal)
