@@ -49,7 +49,7 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   EXPECT_EQ(pending.states_log.take()->hold_time, 2);
 
   // A second call lists only what still waits for a restart.
-  EXPECT_EQ(reload.apply(wanted).for_restart.size(), 2u) << "still not in force";
+  EXPECT_EQ(reload.apply(wanted).for_restart.size(), 3u) << "still not in force";
   EXPECT_THAT(reload.apply(wanted).made, IsEmpty());
 }
 
