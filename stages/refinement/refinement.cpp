@@ -49,7 +49,8 @@ Refinement::Refinement(const RefinementParams& params, std::shared_ptr<const Han
       coarse_skin_(coarsened(*skin_, kCoarseCell)),
       limits_(widened_limits(*profile_, params.energy.limit_widening_deg * kDegree)),
       contact_(*profile_),
-      object_contact_(params.objects, surface_points(*skin_, *profile_, kContactPoints)) {}
+      object_contact_(params.objects,
+                      params.objects.enabled ? surface_points(*skin_, *profile_, kContactPoints) : HandSurface()) {}
 
 Refinement::Detail Refinement::fine() const { return {*skin_, params_.comparison.stride}; }
 
