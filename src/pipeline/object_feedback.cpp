@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hand/grasps/holding.h"
+
 namespace barehand {
 namespace {
 
@@ -14,18 +16,6 @@ constexpr double kSmooth = 0.5;  // weight of the newest motion
 double deviation(const PosedObject& posed) {
   const auto J = point_jacobian(posed.T_camera_object.R * posed.object->centre);
   return std::sqrt((J * posed.covariance * J.transpose()).trace());
-}
-
-/// The tracked hand whose palm is nearest to a place; null: no hand is tracked.
-const HandEstimate* nearest_hand(const Eigen::Vector3d& place, const HandEstimates& estimates) {
-  const HandEstimate* nearest = nullptr;
-  const auto distance = [&](const HandEstimate& hand) {
-    return (hand.segments[kPalm].T_camera_segment.t - place).norm();
-  };
-  for (const HandEstimatePtr& estimate : estimates)
-    if (estimate->status == TrackStatus::tracking && (!nearest || distance(*estimate) < distance(*nearest)))
-      nearest = estimate.get();
-  return nearest;
 }
 
 }  // namespace
@@ -55,7 +45,7 @@ FrameVector<NearbyObject> ObjectPlaces::place(std::span<const PosedObject> objec
 
     // Compare how far the object moved in the camera frame and in the nearest palm.
     const Eigen::Vector3d middle = posed.T_camera_object * posed.object->centre;
-    const HandEstimate* const hand = nearest_hand(middle, estimates);
+    const HandEstimate* const hand = nearest_palm(middle, estimates);
     if (!hand) continue;
     const SE3 T_palm_camera = hand->segments[kPalm].T_camera_segment.inverse();
     Motion& motion = motions_[posed.object->id];

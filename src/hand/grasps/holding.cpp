@@ -9,17 +9,21 @@ constexpr double kCarried = 0.02, kFirm = 0.012, kLeft = 0.03;
 
 }  // namespace
 
-void Holding::update(std::int64_t utime, const HandEstimates& estimates, const Eigen::Vector3d& centre,
-                     ObjectEstimate& state) {
-  // Find the nearest palm.
-  const Eigen::Vector3d middle = state.T_camera_object * centre;
+const HandEstimate* nearest_palm(const Eigen::Vector3d& place, const HandEstimates& estimates) {
   const HandEstimate* nearest = nullptr;
   const auto distance = [&](const HandEstimate& hand) {
-    return (hand.segments[kPalm].T_camera_segment.t - middle).norm();
+    return (hand.segments[kPalm].T_camera_segment.t - place).norm();
   };
   for (const HandEstimatePtr& estimate : estimates)
     if (estimate->status == TrackStatus::tracking && (!nearest || distance(*estimate) < distance(*nearest)))
       nearest = estimate.get();
+  return nearest;
+}
+
+void Holding::update(std::int64_t utime, const HandEstimates& estimates, const Eigen::Vector3d& centre,
+                     ObjectEstimate& state) {
+  // Find the nearest palm.
+  const HandEstimate* const nearest = nearest_palm(state.T_camera_object * centre, estimates);
 
   bool held = false;
   const bool same = nearest && hand_ == nearest->hand_id;

@@ -8,6 +8,9 @@
 
 namespace barehand {
 
+/// The tracked hand whose palm is nearest to `place` (camera frame, m); null: no hand is tracked.
+const HandEstimate* nearest_palm(const Eigen::Vector3d& place, const HandEstimates& estimates);
+
 /// Says whether a hand holds an object: once the object has moved with a palm, until it leaves its place in the palm.
 class Holding {
  public:
