@@ -97,7 +97,8 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
 int Visibility::*ObservedDepth::shows(int u, int v, double z, double alike) const {
   const double measured = depth(u, v);
   if (measured <= 0) return &Visibility::hidden;
-  const bool before = measured<z - alike, behind = measured> z + alike;
+  const bool before = measured < z - alike;
+  const bool behind = measured > z + alike;
   if (!behind && of_hand(u, v)) return &Visibility::hidden;
   if (!before && !behind) return &Visibility::seen;
 

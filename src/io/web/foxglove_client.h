@@ -66,7 +66,7 @@ class FoxgloveClient : public WebPeer {
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
   std::condition_variable changed_;
-  Due next_;  // data to be sent next, except for the frame and the replies, which the next two hold
+  Due next_;  // data to be sent next, except for the frame and the replies, which are in frames_ and replies_
   NewestFrame frames_;
   Replies replies_;
   std::uint32_t advertised_ = 0;  // the viewer knows the channels 1 to this one
