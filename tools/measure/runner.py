@@ -8,7 +8,7 @@ import subprocess
 import figures
 from claims import ClaimError, read, read_toml
 
-MADE = re.compile(r"\$OUT/([\w.]+)")
+MADE = re.compile(r"\$OUT/([\w.-]+)")
 
 
 class Runner:
