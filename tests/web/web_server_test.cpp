@@ -29,12 +29,12 @@ class Echo : public WebPeer {
   WebSocket socket_;
 };
 
-std::unique_ptr<WebServer> serve(int port = 0) {
+template <class Peer = Echo>
+std::unique_ptr<WebServer> serve() {
   WebServer::Options options;
-  options.port = port;
   options.files = {{"/index.html", {"text/html", "<p>page</p>"}}, {"/empty.js", {"text/javascript", ""}}};
   options.allowed_origins = {"https://example.org"};
-  options.connect = [](WebSocket socket) { return std::make_unique<Echo>(socket); };
+  options.connect = [](WebSocket socket) { return std::make_unique<Peer>(socket); };
   auto server = WebServer::start(std::move(options));
   EXPECT_TRUE(server) << server.error().message();
   return server ? std::move(*server) : nullptr;
@@ -142,6 +142,13 @@ std::vector<std::unique_ptr<SocketClient>> as_many_clients_as_possible(int port)
   return clients;
 }
 
+/// Whether there is a place for another client, at the latest when those have left that are leaving.
+bool has_place(int port) {
+  for (int attempts = 0; attempts < 100; ++attempts)
+    if (SocketClient(port).text() == "hello") return true;
+  return false;
+}
+
 TEST(WebServer, TellsFurtherClientsThatItIsFull) {
   const auto server = serve();
   auto clients = as_many_clients_as_possible(server->port());
@@ -158,9 +165,38 @@ TEST(WebServer, TellsFurtherClientsThatItIsFull) {
 
   // When one leaves, there is a place for another one.
   clients.pop_back();
-  std::optional<std::string> text;
-  for (int attempts = 0; text != "hello" && attempts < 100; ++attempts) text = SocketClient(server->port()).text();
-  EXPECT_EQ(text, "hello");
+  EXPECT_TRUE(has_place(server->port()));
+}
+
+/// Disconnects at once, as a sender does to which a client that resets the connection accepts nothing.
+class Hasty : public Echo {
+ public:
+  explicit Hasty(WebSocket socket) : Echo(socket), socket_(socket) {}
+  void start() override {
+    socket_.disconnect();
+    Echo::start();
+  }
+
+ private:
+  WebSocket socket_;
+};
+
+TEST(WebServer, ADisconnectionBeforeTheFirstMessageCostsNoPlace) {
+  const auto server = serve<Hasty>();
+  for (int i = 0; i < WebServer::kMaxClients + WebServer::kMaxTurnedAway + 1; ++i)
+    ASSERT_EQ(SocketClient(server->port()).text(), "hello") << i;
+}
+
+TEST(WebServer, RequestsWithAKeyThatIsTooLongCostNoPlace) {
+  const auto server = serve();
+  for (int i = 0; i < WebServer::kMaxClients + WebServer::kMaxTurnedAway; ++i) {
+    const std::string answer = answer_of(server->port(), "/live",
+                                         "Host: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+                                         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " +
+                                             std::string(100, 'k') + "\r\n");
+    EXPECT_NE(status_of(answer), 101);
+  }
+  EXPECT_TRUE(has_place(server->port()));
 }
 
 TEST(WebServer, ServesFilesWhateverFurtherClientsDo) {

@@ -36,41 +36,39 @@ ros::Scene scene_of(const ViewFrame::Content& content) {
 
 }  // namespace
 
-FoxgloveClient::~FoxgloveClient() {
-  {
-    const std::lock_guard lock(mutex_);
-    ending_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-  on_gone_(*this);
-}
-
-void FoxgloveClient::start() {
+FoxgloveClient::FoxgloveClient(WebSocket socket, OnGone on_gone) : FrameClient(socket, std::move(on_gone)) {
   replies_.add(text_of({{"op", "serverInfo"},
                         {"name", "barehand"},
                         {"capabilities", Json::array()},
                         {"supportedEncodings", Json::array()},
                         {"metadata", Json::object()}}));
-  thread_ = std::thread([this] { run(); });
+}
+
+void FoxgloveClient::execute(std::string_view text) {
+  const auto request = parse_foxglove_request(text);
+  const std::lock_guard lock(mutex_);
+  request ? change(*request) : refuse(request.error().message());
+
+  // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
+  if (request && !request->subscribe.empty()) frames_.repeat();
 }
 
 /// Adds and removes subscriptions. Answers each request that cannot be fulfilled with an error.
-void FoxgloveClient::execute(const FoxgloveRequest& request) {
+void FoxgloveClient::change(const FoxgloveRequest& request) {
   for (const auto& [id, channel] : request.subscribe) {
     const std::string name = "Subscription " + std::to_string(id);
     if (channel == 0 || channel > advertised_)
       refuse(name + " asks for channel " + std::to_string(channel) +
              ", which does not exist. Give the id of a channel that was advertised.");
-    else if (next_.subscriptions.contains(id))
+    else if (subscriptions_.contains(id))
       refuse(name + " exists already. Choose another id, or unsubscribe first.");
-    else if (next_.subscriptions.size() >= kMostSubscriptions)
+    else if (subscriptions_.size() >= kMostSubscriptions)
       refuse(name + " is one too many; a viewer may have " + std::to_string(kMostSubscriptions) + ".");
     else
-      next_.subscriptions[id] = channel;
+      subscriptions_[id] = channel;
   }
   for (const std::uint32_t id : request.unsubscribe)
-    if (next_.subscriptions.erase(id) == 0) refuse("Subscription " + std::to_string(id) + " does not exist.");
+    if (subscriptions_.erase(id) == 0) refuse("Subscription " + std::to_string(id) + " does not exist.");
 }
 
 /// Sends the viewer an error status that says why its request was not fulfilled.
@@ -79,78 +77,19 @@ void FoxgloveClient::refuse(const std::string& why) {
   replies_.add(text_of({{"op", "status"}, {"level", kError}, {"message", why}}));
 }
 
-bool FoxgloveClient::receive(std::string_view text) {
-  const auto request = parse_foxglove_request(text);
-  const std::lock_guard lock(mutex_);
-  request ? execute(*request) : refuse(request.error().message());
-
-  // Send the last frame again, so that new subscriptions get a message even if no frame follows (a paused log).
-  if (request && !request->subscribe.empty()) frames_.repeat();
-  changed_.notify_all();
-  // After a farewell the client is still read, until it closes, so that it loses nothing of what was sent.
-  return !broken_ || next_.farewell;
-}
-
-void FoxgloveClient::post(ViewFramePtr frame) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (ending_) return;
-    frames_.post(std::move(frame));
-  }
-  changed_.notify_all();
-}
-
-void FoxgloveClient::end(const Farewell& farewell) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_.farewell = farewell;
-  }
-  changed_.notify_all();
-}
-
-QueueHealth FoxgloveClient::health() const {
-  const std::lock_guard lock(mutex_);
-  return frames_.health();
-}
-
-void FoxgloveClient::run() {
-  Due due;
-  while (wait(due)) {
-    if (send(due)) continue;
-    if (!due.farewell) socket_.disconnect();
-    const std::lock_guard lock(mutex_);
-    broken_ = true;
-  }
-}
-
-/// Waits until something is to be sent, and moves it to `due`. Returns false when the client is being destroyed.
-bool FoxgloveClient::wait(Due& due) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return ending_ || (!broken_ && has_due()); });
-  if (ending_) return false;
-  due.replies = replies_.take();
-  due.farewell = next_.farewell;
-  due.frame = frames_.take();
-  due.subscriptions = next_.subscriptions;
-  return true;
-}
-
-bool FoxgloveClient::send(const Due& due) {
-  for (const std::string& reply : due.replies)
-    if (!socket_.send_text(reply)) return false;
-  if (due.frame && !send_frame(due)) return false;
-  if (due.farewell) socket_.ask_to_close(*due.farewell);
-  return !due.farewell;  // nothing may be sent after a request to close
-}
-
-bool FoxgloveClient::send_frame(const Due& due) {
-  const auto time = ros::time_of(due.frame->content().utime);
+bool FoxgloveClient::send_frame(const ViewFrame& frame) {
+  const auto time = ros::time_of(frame.content().utime);
   if (!time) return true;
 
   // Advertise the topics that are new to the viewer.
-  const ros::Scene scene = scene_of(due.frame->content());
+  const ros::Scene scene = scene_of(frame.content());
   const std::vector<ros::Topic> topics = ros::topics_of(scene);
   if (!advertise(topics)) return false;
+
+  const auto subscriptions = [&] {
+    const std::lock_guard lock(mutex_);
+    return subscriptions_;
+  }();
 
   // Encode each topic to which the viewer has subscribed, once, and send it.
   for (const ros::Topic& topic : topics) {
@@ -158,7 +97,7 @@ bool FoxgloveClient::send_frame(const Due& due) {
     ros::Bytes message;
 
     // Send the message under the number of each subscription to the topic.
-    for (const auto& [subscription, wanted] : due.subscriptions) {
+    for (const auto& [subscription, wanted] : subscriptions) {
       if (wanted != channel) continue;
       if (message.empty()) message = topic.encode().value_or(ros::Bytes());
       if (!message.empty() && !send_message(subscription, ros::nanoseconds(*time), message)) return false;

@@ -22,7 +22,7 @@ class FoxgloveClients {
   void show(const ViewFramePtr& frame);
   /// Remembers a profile before a frame shows it.
   void set_profile(std::shared_ptr<const HandProfile> profile);
-  /// Ends all connections: see FoxgloveClient::end().
+  /// Ends all connections: see FrameClient::end().
   void end(const Farewell& farewell);
   /// Adds the counts of frames of all clients since the start to `all`.
   void add_health(QueueHealth& all) const;
@@ -32,11 +32,11 @@ class FoxgloveClients {
   Result<WebFile> urdf(const std::string& path, const std::string& base) const;
 
  private:
-  void forget(const FoxgloveClient& client);
+  void forget(const FrameClient& client);
 
   std::atomic<int> count_ = 0;
   mutable std::mutex mutex_;  // protects the members below
-  std::set<FoxgloveClient*> clients_;
+  std::set<FrameClient*> clients_;
   QueueHealth gone_;    // counts of the clients that have left
   ViewFramePtr frame_;  // the newest frame, for clients that connect; null without clients
   std::array<std::shared_ptr<const HandProfile>, 2> profiles_;  // by Handedness

@@ -1,7 +1,7 @@
 // The connection to one live page in a browser.
 #include "io/web/view_client.h"
 
-#include <chrono>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,23 +12,9 @@ constexpr std::int64_t kSkinPeriodUs = 2'000'000;
 }  // namespace
 
 ViewClient::ViewClient(WebSocket socket, const Clock& clock, Handlers handlers)
-    : socket_(socket), clock_(clock), handlers_(std::move(handlers)) {}
+    : FrameClient(socket, handlers.gone), clock_(clock), handlers_(std::move(handlers)) {}
 
-ViewClient::~ViewClient() {
-  {
-    const std::lock_guard lock(mutex_);
-    ending_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-  handlers_.gone(*this);
-}
-
-void ViewClient::start() {
-  thread_ = std::thread([this] { run(); });
-}
-
-bool ViewClient::receive(std::string_view text) {
+void ViewClient::execute(std::string_view text) {
   const auto request = parse_view_request(text);
   const Result<void> followed = request ? follow(*request) : tl::unexpected(request.error());
 
@@ -36,8 +22,7 @@ bool ViewClient::receive(std::string_view text) {
   if (!followed) {
     reply(followed.error());
   } else if (const auto* settings = std::get_if<ViewSettings>(&*request)) {
-    next_.settings = *settings;
-    asked_ = true;
+    settings_ = *settings;
     under_way_ = 0;
     next_at_us_ = 0;
 
@@ -46,9 +31,6 @@ bool ViewClient::receive(std::string_view text) {
   } else if (std::holds_alternative<ViewAcknowledge>(*request) && under_way_ > 0) {
     --under_way_;
   }
-  changed_.notify_all();
-  // After a farewell the client is still read, until it closes, so that it loses nothing of what was sent.
-  return !broken_ || next_.farewell;
 }
 
 /// Executes commands that concern the program as a whole.
@@ -64,104 +46,23 @@ void ViewClient::reply(const Error& error) {
   replies_.add(reply.dump(-1, ' ', false, replace));
 }
 
-void ViewClient::post(ViewFramePtr frame) {
-  {
+std::optional<std::int64_t> ViewClient::delay_us() const {
+  if (!settings_) return std::nullopt;
+  if (is_ending()) return 0;
+  if (settings_->window > 0 && under_way_ >= settings_->window) return std::nullopt;
+  return std::max<std::int64_t>(0, next_at_us_ - clock_.steady_us());
+}
+
+void ViewClient::on_frame() {
+  if (settings_->window > 0) ++under_way_;
+  next_at_us_ = clock_.steady_us() + static_cast<std::int64_t>(1e6 / settings_->rate * 0.9);
+}
+
+bool ViewClient::send_frame(const ViewFrame& frame) {
+  const ViewSettings settings = [&] {
     const std::lock_guard lock(mutex_);
-    if (ending_) return;
-    frames_.post(std::move(frame));
-  }
-  changed_.notify_all();
-}
-
-void ViewClient::post_status(StatusText status) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_.status = std::move(status);
-  }
-  changed_.notify_all();
-}
-
-void ViewClient::end(const Farewell& farewell) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_.farewell = farewell;
-  }
-  changed_.notify_all();
-}
-
-bool ViewClient::is_told() const {
-  const std::lock_guard lock(mutex_);
-  return broken_ || (!next_.status && !sending_);
-}
-
-QueueHealth ViewClient::health() const {
-  const std::lock_guard lock(mutex_);
-  return frames_.health();
-}
-
-void ViewClient::run() {
-  Due due;
-  while (wait(due)) {
-    const bool sent = send(due);
-    if (!sent && !due.farewell) socket_.disconnect();
-    const std::lock_guard lock(mutex_);
-    sending_ = false;
-    if (!sent) broken_ = true;
-  }
-}
-
-bool ViewClient::has_due(std::int64_t now_us) const {
-  if (broken_) return false;
-  return next_.status || !replies_.empty() || next_.farewell || has_due_frame(now_us);
-}
-
-bool ViewClient::has_due_frame(std::int64_t now_us) const {
-  if (!frames_.waiting() || !asked_) return false;
-  const bool window_open = next_.settings.window == 0 || under_way_ < next_.settings.window;
-  return next_.farewell || (window_open && now_us >= next_at_us_);
-}
-
-/// Waits until something may be sent, and moves it to `due`. Returns false when the client is being destroyed.
-bool ViewClient::wait(Due& due) {
-  std::unique_lock lock(mutex_);
-
-  // Sleep until something arrives, or until the next frame is allowed.
-  while (!ending_ && !has_due(clock_.steady_us())) {
-    const std::int64_t early_us = frames_.waiting() ? next_at_us_ - clock_.steady_us() : 0;
-    if (early_us > 0 && !broken_)
-      changed_.wait_for(lock, std::chrono::microseconds(early_us));
-    else
-      changed_.wait(lock);
-  }
-  if (ending_) return false;
-
-  // Take the newest status, the replies, the settings and the farewell.
-  sending_ = true;
-  due.status = std::exchange(next_.status, nullptr);
-  due.replies = replies_.take();
-  due.farewell = next_.farewell;
-  due.settings = next_.settings;
-  due.frame = nullptr;
-
-  // Take the frame unless too many are unacknowledged or the requested rate does not allow it yet.
-  if (const std::int64_t now_us = clock_.steady_us(); has_due_frame(now_us)) {
-    due.frame = frames_.take();
-    if (next_.settings.window > 0) ++under_way_;
-    next_at_us_ = now_us + static_cast<std::int64_t>(1e6 / next_.settings.rate * 0.9);
-  }
-  return true;
-}
-
-bool ViewClient::send(const Due& due) {
-  for (const std::string& reply : due.replies)
-    if (!socket_.send_text(reply)) return false;
-  if (due.status && !socket_.send_text(*due.status)) return false;
-  if (due.frame && !send_frame(*due.frame, due.settings)) return false;
-  if (due.farewell) socket_.ask_to_close(*due.farewell);
-  return !due.farewell;  // nothing may follow it
-}
-
-bool ViewClient::send_frame(const ViewFrame& frame, const ViewSettings& settings) {
+    return *settings_;
+  }();
   bytes_.clear();
   write_new_skins(frame);
   frame.write_states(clock_.utime(), bytes_);

@@ -52,7 +52,7 @@ ViewServer::~ViewServer() {
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
-    for (ViewClient* client : clients_) client->end(farewell_);
+    for (FrameClient* client : clients_) client->end(farewell_);
   }
   foxglove_.end(farewell_);
 
@@ -66,7 +66,7 @@ std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
   ViewClient::Handlers handlers;
   handlers.play = on_command_;
   handlers.record = [this, number = ++last_client_](const RecordCommand& command) { return record(command, number); };
-  handlers.gone = [this](const ViewClient& gone) { forget(gone); };
+  handlers.gone = [this](const FrameClient& gone) { forget(gone); };
   auto client = std::make_unique<ViewClient>(socket, clock_, std::move(handlers));
   clients_.insert(client.get());
   clients_count_ = static_cast<int>(clients_.size());
@@ -84,11 +84,11 @@ Result<void> ViewServer::record(const RecordCommand& command, int client) {
   return {};
 }
 
-void ViewServer::forget(const ViewClient& client) {
+void ViewServer::forget(const FrameClient& client) {
   const QueueHealth last = closed(client.health());
   const std::lock_guard lock(mutex_);
   add_counts(last, gone_);
-  clients_.erase(const_cast<ViewClient*>(&client));
+  clients_.erase(const_cast<FrameClient*>(&client));
   clients_count_ = static_cast<int>(clients_.size());
   if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
 }
@@ -97,20 +97,20 @@ void ViewServer::show(const ViewFramePtr& frame) {
   foxglove_.show(frame);
   const std::lock_guard lock(mutex_);
   frame_ = frame;
-  for (ViewClient* client : clients_) client->post(frame);
+  for (FrameClient* client : clients_) client->post(frame);
 }
 
 void ViewServer::show_status(std::string json) {
   const auto status = std::make_shared<const std::string>(std::move(json));
   const std::lock_guard lock(mutex_);
   status_ = status;
-  for (ViewClient* client : clients_) client->post_status(status);
+  for (FrameClient* client : clients_) client->post_status(status);
 }
 
 void ViewServer::flush(std::chrono::milliseconds patience) const {
   const auto all_told = [&] {
     const std::lock_guard lock(mutex_);
-    return std::ranges::all_of(clients_, [](const ViewClient* client) { return client->is_told(); });
+    return std::ranges::all_of(clients_, [](const FrameClient* client) { return client->is_told(); });
   };
   wait_until(all_told, patience);
 }
@@ -121,7 +121,7 @@ QueueHealth ViewServer::health() const {
   all.name = "view";
   all.capacity = clients_.size();
   foxglove_.add_health(all);
-  for (const ViewClient* client : clients_) add_counts(client->health(), all);
+  for (const FrameClient* client : clients_) add_counts(client->health(), all);
   return all;
 }
 

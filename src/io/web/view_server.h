@@ -58,7 +58,7 @@ class ViewServer {
       : on_command_(options.on_command), recorder_(options.recorder), clock_(clock) {}
   std::unique_ptr<WebPeer> connect(WebSocket socket);
   Result<void> record(const RecordCommand& command, int client);
-  void forget(const ViewClient& client);
+  void forget(const FrameClient& client);
 
   const std::function<void(const PlayerCommand&)> on_command_;
   LogRecorder* const recorder_;
@@ -66,7 +66,7 @@ class ViewServer {
   std::atomic<int> clients_count_ = 0;
 
   mutable std::mutex mutex_;  // protects the members down to the blank line
-  std::set<ViewClient*> clients_;
+  std::set<FrameClient*> clients_;
   int last_client_ = 0;  // number of the client that connected last
   QueueHealth gone_;     // counts of the clients that have left
   ViewFramePtr frame_;

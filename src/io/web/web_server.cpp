@@ -7,13 +7,23 @@
 #include <charconv>
 #include <chrono>
 #include <future>
+#include <mutex>
 
 #include "io/web/allowed_origin.h"
 
 namespace barehand {
+
+/// The server's data about one connection.
+struct WebConnection {
+  std::unique_ptr<WebPeer> peer;
+  std::string message;                // the fragments of the current message received so far
+  std::atomic<bool> is_read = false;  // whether civetweb reads from it
+};
+
 namespace {
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
+constexpr std::size_t kLongestKey = 24;            // size of a Sec-WebSocket-Key: 16 bytes in Base64 (RFC 6455)
 constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
 
 std::string_view header(const mg_connection* connection, const char* name) {
@@ -26,14 +36,8 @@ const char* chosen_protocol(const mg_connection* connection) {
   return mg_get_request_info(connection)->acceptedWebSocketSubprotocol;
 }
 
-/// The server's data about one connection.
-struct Connection {
-  std::unique_ptr<WebPeer> peer;
-  std::string message;  // the fragments of the current message received so far
-};
-
-Connection* connection_of(const mg_connection* connection) {
-  return static_cast<Connection*>(mg_get_user_connection_data(connection));
+WebConnection* connection_of(const mg_connection* connection) {
+  return static_cast<WebConnection*>(mg_get_user_connection_data(connection));
 }
 
 /// The header that lets a page of an allowed origin read the response; is_allowed() has checked the origin before.
@@ -59,7 +63,12 @@ void WebSocket::ask_to_close(const Farewell& farewell) {
   (void)send(MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, payload.data(), payload.size());
 }
 
-void WebSocket::disconnect() { mg_close_connection(connection_); }  // only sets a flag that the server's thread reads
+void WebSocket::disconnect() {
+  // While civetweb reads from the connection this only sets a flag for the reading thread. Before, it would close the
+  // socket here, under the feet of that thread.
+  const WebConnection* known = connection_of(connection_);
+  if (known && known->is_read) mg_close_connection(connection_);
+}
 
 class WebServer::Impl {
  public:
@@ -101,6 +110,11 @@ class WebServer::Impl {
   mg_websocket_subprotocols protocols_{};  // civetweb keeps a pointer to this member
   mg_context* context_ = nullptr;
   std::atomic<int> open_ = 0, clients_ = 0;  // WebSockets; those of them with a peer
+
+  std::mutex mutex_;  // protects the member below
+  // The WebSockets with a peer. civetweb forgets its pointer to one that WebSocket::disconnect() closes just when the
+  // client goes.
+  std::map<const mg_connection*, std::unique_ptr<WebConnection>> connections_;
 };
 
 Result<int> WebServer::Impl::start() {
@@ -206,7 +220,8 @@ int WebServer::Impl::answer(mg_connection* connection) const {
 }
 
 bool WebServer::Impl::admit(const mg_connection* connection) {
-  if (!is_allowed(connection)) return false;
+  // civetweb fails to answer a longer key, and does not report that the connection has ended.
+  if (!is_allowed(connection) || header(connection, "Sec-WebSocket-Key").size() > kLongestKey) return false;
   if (++open_ <= kMaxClients + kMaxTurnedAway) return true;
   --open_;
   return false;
@@ -223,19 +238,24 @@ void WebServer::Impl::ready(mg_connection* connection) {
   }
 
   // Create the program's side of the connection.
-  auto made = std::make_unique<Connection>();
+  auto made = std::make_unique<WebConnection>();
   const auto& connect = chosen_protocol(connection) ? options_.connect_protocol : options_.connect;
   made->peer = connect(WebSocket(connection));
-  WebPeer& peer = *made->peer;
-  mg_set_user_connection_data(connection, made.release());
-  peer.start();
+  WebConnection& known = *made;
+  mg_set_user_connection_data(connection, &known);
+  {
+    const std::lock_guard lock(mutex_);
+    connections_[connection] = std::move(made);
+  }
+  known.peer->start();
 }
 
 bool WebServer::Impl::receive(const mg_connection* connection, int bits, std::string_view data) {
-  Connection* known = connection_of(connection);
+  WebConnection* known = connection_of(connection);
   const int opcode = bits & 0xf;
   const bool last = (bits & 0x80) != 0;
   if (!known || opcode == kClose) return false;
+  known->is_read = true;
   if (opcode > kClose) return true;  // civetweb handles ping and pong
   if (opcode != kContinuation) known->message.clear();
   if (known->message.size() + data.size() > kLongestMessage) return false;
@@ -244,9 +264,15 @@ bool WebServer::Impl::receive(const mg_connection* connection, int bits, std::st
 }
 
 void WebServer::Impl::closed(const mg_connection* connection) {
-  const std::unique_ptr<Connection> known(connection_of(connection));
+  const auto known = [&] {
+    const std::lock_guard lock(mutex_);
+    return connections_.extract(connection);
+  }();
+  if (known) {
+    known.mapped()->peer->gone();
+    --clients_;
+  }
   --open_;
-  if (known) --clients_;
 }
 
 WebServer::WebServer() = default;

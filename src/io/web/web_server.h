@@ -37,7 +37,8 @@ class WebSocket {
   bool send_binary(std::span<const std::uint8_t> bytes);
   /// Asks the client to close the connection; a browser passes the code and the reason to the page's script.
   void ask_to_close(const Farewell& farewell);
-  /// Ends the connection of a client to which nothing more can be sent. The server does it within kStuckSeconds.
+  /// Ends the connection of a client to which nothing more can be sent. The server does it within kStuckSeconds. A
+  /// client that has sent no message yet is left to the server's pings.
   void disconnect();
 
  private:
@@ -45,8 +46,7 @@ class WebSocket {
   mg_connection* connection_;
 };
 
-/// The program's side of one connection. It is destroyed when the client is gone; its socket must not be used
-/// afterwards.
+/// The program's side of one connection.
 class WebPeer {
  public:
   virtual ~WebPeer() = default;
@@ -54,6 +54,9 @@ class WebPeer {
   virtual void start() = 0;
   /// Called with a complete message of the client, on a thread of the server. Returns false to disconnect the client.
   virtual bool receive(std::string_view text) = 0;
+  /// Called once when the client is gone, on a thread of the server. When it returns the socket must not be used any
+  /// more, and the peer is destroyed.
+  virtual void gone() {}
 };
 
 struct WebFile {
