@@ -62,6 +62,85 @@ TEST_F(CompareTest, MissingDepthIsNoEvidence) {
   EXPECT_EQ(comparison.score, params_.distance_cap);
 }
 
+// A hand before which nothing else was measured, and what contradicts a model that reaches too far.
+class HoleTest : public CompareTest {
+ protected:
+  HoleTest() {
+    for (std::size_t i = 0; i < observation_->label.size(); ++i)
+      if (observation_->label[i] != PixelLabel::hand) forget(i);
+  }
+  void forget(std::size_t i) {
+    observation_->label[i] = PixelLabel::unknown;
+    observation_->depth[i] = 0;
+  }
+  // Finds the nearest hand pixels anew after some were forgotten.
+  void find_hand() {
+    Image<std::int32_t> hand(observation_->label.width(), observation_->label.height(), -1);
+    for (std::size_t i = 0; i < hand.size(); ++i)
+      if (observation_->label[i] == PixelLabel::hand) hand[i] = 1;
+    observation_->nearest_hand = test::nearest_in(hand);
+  }
+  // Moves the hand 12 mm towards its fingertips, and returns the correspondences of skin that is in a hole.
+  std::vector<Correspondence> in_holes(double by = 0.012) {
+    std::vector<Correspondence> found;
+    for (const Correspondence& c : compare_at(*observation_, shifted({0, -by, 0})).correspondences)
+      if (c.kind == Correspondence::Kind::outside) found.push_back(c);
+    return found;
+  }
+};
+
+TEST_F(HoleTest, AFingerEndsWhereItsMeasuredPartDoes) {
+  const std::vector<Correspondence> found = in_holes();
+  EXPECT_GT(found.size(), 40u);
+  for (const Correspondence& c : found) {
+    EXPECT_GT(c.data.y(), c.model.y()) << "fingers point upwards, so they should move down";
+    EXPECT_LE((c.data - c.model).head<2>().norm(), 0.0201f);
+  }
+  EXPECT_TRUE(in_holes(0).empty()) << "the true pose";
+}
+
+TEST_F(HoleTest, TheEvidenceHasItsWeight) {
+  const float half = in_holes().front().weight;
+  params_.missing_depth = 0.25;
+  EXPECT_FLOAT_EQ(in_holes().front().weight, half / 2);
+  params_.missing_depth = 0;
+  EXPECT_TRUE(in_holes().empty());
+}
+
+TEST_F(HoleTest, AFingerThatIsMissingAsAWholeIsNotContradicted) {
+  RenderedHand rendered;
+  render_hand(skin_, pose_, observation_->frame->camera, grid_of(*observation_, 1), rendered);
+  const auto of_middle = [&](std::int32_t vertex) {
+    const int segment = skin_.vertices[vertex].a;
+    return segment != kPalm && finger_of(segment) == 2;
+  };
+  for (std::size_t i = 0; i < rendered.vertex.size(); ++i)
+    if (rendered.vertex[i] >= 0 && of_middle(rendered.vertex[i])) forget(i);
+  find_hand();
+  EXPECT_LT(in_holes(0).size(), 10u) << "at the knuckle alone";
+}
+
+TEST_F(HoleTest, TheShadowOfANearerObjectSaysNothing) {
+  // An object surrounds the hand, with a hole of five pixels in between.
+  const auto surround = [&](float z) {
+    const int width = observation_->label.width(), height = observation_->label.height();
+    Image<std::int32_t> object(width, height, -1);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) {
+        const std::int32_t hand = observation_->nearest_hand.at(u, v);
+        if (std::max(std::abs(hand % width - u), std::abs(hand / width - v)) <= 5) continue;
+        observation_->label.at(u, v) = PixelLabel::object;
+        observation_->depth.at(u, v) = z;
+        object.at(u, v) = 1;
+      }
+    observation_->nearest_object = test::nearest_in(object);
+  };
+  surround(0.35f);
+  EXPECT_TRUE(in_holes(0.008).empty());
+  surround(0.6f);
+  EXPECT_GT(in_holes(0.008).size(), 20u) << "an object behind the hand casts no shadow on it";
+}
+
 TEST_F(CompareTest, AnObjectInFrontHidesWithoutContradicting) {
   for (int v = 0; v < 100; ++v)
     for (int u = 0; u < 320; ++u) {

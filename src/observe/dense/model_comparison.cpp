@@ -14,6 +14,12 @@ using Kind = Correspondence::Kind;
 constexpr float kWristMargin = 0.010f;  // data this far behind the wrist belongs to the forearm [m]
 // If the model is in front of a non-hand surface by less than this [m], it may be moved behind the surface.
 constexpr float kStandsOut = 0.005f;
+constexpr float kHoleReach = 0.020f;     // missing depth is evidence up to this far beside what was measured [m]
+constexpr float kSameSurface = 0.020f;   // by how much the depths of model and data beside a hole may differ [m]
+constexpr std::int32_t kLostPixels = 2;  // a sensor may lose this many pixels along the edge of a surface
+
+// The part of the hand, a finger or the palm, that a segment belongs to.
+int part_of(int segment) { return segment == kPalm ? -1 : finger_of(segment); }
 
 /// Classifies every cell of the grid and collects the correspondences.
 class Comparer {
@@ -59,11 +65,12 @@ class Comparer {
   }
   Vector3f data_point(int u, int v) const { return out_.rays.point(u, v, obs_.depth.at(u, v)); }
 
-  // Adds the correspondence of cell (i, j) and its contribution to the score. `cost_distance`: uncapped distance [m].
-  void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance) {
+  // Adds the correspondence of cell (i, j) and its contribution to the score. `cost_distance`: uncapped distance [m];
+  // `share`: what this evidence counts relative to that of a measured pixel.
+  void add(Kind kind, int i, int j, const Vector3f& data, float cost_distance, float share = 1) {
     const int vertex = rendered_.vertex.at(i, j);
     const float z = kind == Kind::unexplained ? data.z() : rendered_.depth.at(i, j);
-    const float weight = cell_area_per_z_sq_ * z * z;
+    const float weight = share * cell_area_per_z_sq_ * z * z;
     const Vector3f normal = rendered_.normal.empty() ? Vector3f(Vector3f::Zero()) : rendered_.normal[vertex];
     out_.correspondences.push_back({kind, vertex, model_point(i, j), normal, data, weight});
     total_ += weight * std::min<double>(cost_distance, params_.distance_cap);
@@ -77,9 +84,10 @@ class Comparer {
     const int segment = skin_.vertices[rendered_.vertex.at(i, j)].a;
     const PixelLabel label = obs_.label.at(u, v);
 
-    // Missing depth is evidence neither for nor against the model.
+    // A hole in the data does not hide the segment.
     if (label == PixelLabel::unknown || z_data <= 0) {
-      ++out_.visible[segment];  // a hole in the data does not hide the segment
+      ++out_.visible[segment];
+      compare_hole(i, j, u, v);
       return;
     }
 
@@ -108,19 +116,52 @@ class Comparer {
       add(Kind::outside, i, j, aside, distance_aside);
   }
 
+  /// Adds the correspondence of a cell that shows the model where nothing was measured. A sensor that measures a finger
+  /// seldom misses its next millimetres, so the finger most probably ends beside the hole. There is no such evidence at
+  /// the edge of what was measured, in the shadow of a nearer object, and where a whole finger is missing, so that
+  /// another part of the hand lies beside the hole.
+  void compare_hole(int i, int j, int u, int v) {
+    const std::int32_t hand = obs_.nearest_hand.at(u, v);
+    if (hand < 0 || params_.missing_depth <= 0) return;
+    const int row = out_.rays.row_of(hand), column = hand - row * obs_.depth.width();
+    if (std::max(std::abs(column - u), std::abs(row - v)) <= kLostPixels) return;
+
+    // The same part of the model must cover the nearest data, which must be near.
+    const int stride = rendered_.grid.stride;
+    const std::int32_t there = rendered_.vertex.at(column / stride, row / stride), here = rendered_.vertex.at(i, j);
+    if (there < 0 || part_of(skin_.vertices[there].a) != part_of(skin_.vertices[here].a)) return;
+    const Vector3f model = model_point(i, j), data = out_.rays.point(hand, obs_.depth);
+    const float distance_aside = (data - model).head<2>().norm();
+    if (distance_aside > kHoleReach || std::abs(data.z() - model.z()) > kSameSurface) return;
+
+    const std::int32_t object = object_in_front(u, v, model);
+    if (object >= 0 && (at_depth(object, model.z()) - model).norm() < kHoleReach) return;
+    add(Kind::outside, i, j, data, distance_aside, static_cast<float>(params_.missing_depth));
+  }
+
   // The nearest point to which the model can move sideways in the image: the hand data at the pixel `hand`. If the hand
   // data there or the nearest object is in front of the model, the model can also move behind it at its own depth.
   Vector3f nearest_aside(int u, int v, std::int32_t hand, const Vector3f& model) const {
-    const auto behind = [&](std::int32_t pixel) {
-      const int row = out_.rays.row_of(pixel);
-      return out_.rays.point(pixel - row * obs_.depth.width(), row, model.z());
-    };
     const bool hand_hides = obs_.depth[hand] < model.z() - static_cast<float>(params_.self_occlusion);
-    const Vector3f at_hand = hand_hides ? behind(hand) : out_.rays.point(hand, obs_.depth);
-    const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
-    if (object < 0 || obs_.depth[object] > model.z() + static_cast<float>(params_.occlusion_tolerance)) return at_hand;
-    const Vector3f at_object = behind(object);
+    const Vector3f at_hand = hand_hides ? at_depth(hand, model.z()) : out_.rays.point(hand, obs_.depth);
+    const std::int32_t object = object_in_front(u, v, model);
+    if (object < 0) return at_hand;
+    const Vector3f at_object = at_depth(object, model.z());
     return (at_object - model).squaredNorm() < (at_hand - model).squaredNorm() ? at_object : at_hand;
+  }
+
+  // The object pixel nearest to pixel (u, v), if the object lies in front of this point of the model; else -1.
+  std::int32_t object_in_front(int u, int v, const Vector3f& model) const {
+    const std::int32_t object = obs_.nearest_object.empty() ? -1 : obs_.nearest_object.at(u, v);
+    const bool in_front =
+        object >= 0 && obs_.depth[object] <= model.z() + static_cast<float>(params_.occlusion_tolerance);
+    return in_front ? object : -1;
+  }
+
+  // The point at depth z [m] on the line of sight of the pixel with this index.
+  Vector3f at_depth(std::int32_t pixel, float z) const {
+    const int row = out_.rays.row_of(pixel);
+    return out_.rays.point(pixel - row * obs_.depth.width(), row, z);
   }
 
   /// Adds a correspondence of the kind `unexplained` for a cell that shows hand data but no model, unless the cell

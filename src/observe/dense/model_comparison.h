@@ -22,6 +22,7 @@ struct ComparisonParams {
   double distance_cap = 0.02;
   double occlusion_tolerance = 0.004;
   double self_occlusion = 0.010;
+  double missing_depth = 0.5;
   bool operator==(const ComparisonParams&) const = default;
 };
 
@@ -33,6 +34,9 @@ void visit(V& v, ComparisonParams& p) {
     "m, an object up to this far behind the model may still occlude it");
   v("self_occlusion", p.self_occlusion, 1e-3, 0.1,
     "m, hand data this far in front of the model belongs to another segment (Sec. 4.2)");
+  v("missing_depth", p.missing_depth, 0.0, 1.0,
+    "weight of skin that reaches beyond the measured end of its finger to where nothing was measured, relative to skin "
+    "before measured background; 0: missing depth is no evidence");
 }
 
 /// One piece of evidence: a point of the model and the point of the data that it should move to.
@@ -44,11 +48,12 @@ struct Correspondence {
   Kind kind;
   int vertex;                           ///< skin vertex that carries the model point
   Eigen::Vector3f model, normal, data;  ///< camera frame [m]; the normal is zero if the rendering has none
-  float weight;                         ///< skin area of the cell relative to kReferenceArea
+  float weight;  ///< skin area of the cell relative to kReferenceArea, times `missing_depth` in a hole
 };
 
 /// All correspondences of a rendered hand and an observation, in both directions: model explained by data (surface,
-/// outside, behind) and data explained by the model (unexplained). Missing depth is not evidence.
+/// outside, behind) and data explained by the model (unexplained). Missing depth is evidence only beside the measured
+/// part of the same finger.
 struct ModelComparison {
   std::vector<Correspondence> correspondences;
   double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence
