@@ -333,7 +333,7 @@ TEST_F(TrackRun, MoreThanHalfOfTheFramesMustBeThere) {
 TEST_F(TrackRun, FramesWithoutAHandAreAResult) {
   ChildProcess child(track({}));
   EXPECT_EQ(child.finish(), 0);
-  EXPECT_THAT(child.output(), HasSubstr("no hand was found in any of 1 frames"));
+  EXPECT_THAT(child.output(), HasSubstr("no hand was found in any of 1 frames: is one in view, between 0.12 and"));
   EXPECT_TRUE(read_table(folder_ + "/result.csv")->frames.empty());
 }
 

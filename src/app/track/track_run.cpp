@@ -492,7 +492,10 @@ int TrackRun::exit_code_of_frames(const PipelineHealth& health) {
   // A run without any hand is not a failure, but the user may have expected a hand.
   const auto tracked = [](const StatusCounts& hand) { return hand.of(TrackStatus::tracking) > 0; };
   if (const auto& hands = progress_->counts(); health.published > 0 && std::ranges::none_of(hands, tracked))
-    log_.logger().warn("no hand was found in any of {} frames", health.published);
+    log_.logger().warn(
+        "no hand was found in any of {} frames: is one in view, between {:.3g} and {:.3g} m away, and are the unit of "
+        "depth and the intrinsics right?",
+        health.published, config_.preprocess.min_depth, config_.preprocess.max_depth);
   return kExitOk;
 }
 
