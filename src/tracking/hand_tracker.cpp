@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "stages/segment_tracker/make_observer.h"
-#include "tracking/hypotheses/restart_consensus.h"
 
 namespace barehand {
 
@@ -32,10 +31,9 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
 
   // Propose another pose. If the followed pose is good but ambiguous or tentative, propose an alternative to it
   // (Proposers::propose_alternative). If it is bad or missing, search the whole observation (Proposers::search_frame).
-  const ChoiceParams& rules = context_.params.choice;
   const double score =
       followed ? choice_.score_with_detection(observation, person_.profile(), followed->refined) : INFINITY;
-  if (score < track_.state.bad_threshold(evidence) && !track_.is_another_hand(score, rules)) {
+  if (score < track_.state.bad_threshold(evidence)) {
     track_.search_frames = 0;
     proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
@@ -46,12 +44,9 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   }
   if (!followed || !other) return conclude(observation, followed ? followed : other, evidence);
 
-  // Choose. A hand seldom jumps, so a pose in another place needs a larger advantage, unless the track is tentative.
-  const bool different_pose = !track_.tentative() && pose_distance(person_.profile(), followed->refined.pose,
-                                                                   other->refined.pose) > kSamePalmDistance;
-  const double advantage = different_pose ? rules.different_pose_advantage : rules.search_advantage;
-  const char* const rule = different_pose ? "different_pose" : "search";
-  return conclude(observation, choice_.replaces(rule, *other, *followed, advantage) ? other : followed, evidence);
+  // Choose.
+  const bool replaced = choice_.replaces("search", *other, *followed, context_.params.choice.search_advantage);
+  return conclude(observation, replaced ? other : followed, evidence);
 }
 
 HandEstimatePtr HandTracker::process(const HandObservation& observation, std::optional<Hypothesis> found,
@@ -120,13 +115,11 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
   ++frame_;
   if (std::exchange(track_.searched, false)) ++track_.search_frames;
 
-  // Collect the evidence of the best pose. If it does not look like the hand that was lost, its score does not count.
-  const ChoiceParams& rules = context_.params.choice;
+  // Collect the evidence of the best pose.
   if (best) {
-    const double score = choice_.score_with_detection(observation, person_.profile(), best->refined);
+    evidence.score = choice_.score_with_detection(observation, person_.profile(), best->refined);
     const bool confirms = track_.tentative() && best->prediction;
-    evidence.to_be_confirmed = track_.needs_confirmation(score, confirms, rules);
-    if (!track_.is_another_hand(score, rules)) evidence.score = score;
+    evidence.to_be_confirmed = track_.needs_confirmation(*evidence.score, confirms, context_.params.choice);
   }
 
   // Update the state machine, and restart or clear the motion model when the phase requires it.

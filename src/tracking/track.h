@@ -29,21 +29,15 @@ struct Track {
   bool was_followed() const { return last_good || motion.has_pose(); }
   bool tentative() const { return state.phase() == TrackPhase::tentative; }
 
-  /// Whether a score [m] is worse than `factor` times the baseline, and not confident either.
-  bool exceeds_baseline(double score, double factor, const ChoiceParams& choice) const {
-    return score >= std::max(choice.confident_score, factor * baseline.level());
-  }
-  /// Whether a pose of a lost hand scores so much worse than the baseline that it shows a part of the hand, or another
-  /// object.
-  bool is_another_hand(double score, const ChoiceParams& choice) const {
-    return choice.rejection_factor > 0 && state.status() == TrackStatus::lost &&
-           exceeds_baseline(score, choice.rejection_factor, choice);
+  /// Whether a score [m] is clearly worse than the baseline, and not confident either.
+  bool is_ambiguous(double score, const ChoiceParams& choice) const {
+    return score >= std::max(choice.confident_score, (1 + choice.ambiguity_margin) * baseline.level());
   }
   /// Whether a pose of a lost hand must be confirmed by the next frame, since a half-visible hand fits many poses
   /// roughly. `confirms`: the pose continues a tentative one, and so confirms it.
   bool needs_confirmation(double score, bool confirms, const ChoiceParams& choice) const {
     return choice.confirmation_factor > 0 && state.status() == TrackStatus::lost && !confirms &&
-           score > choice.confirmation_factor * baseline.level() && !is_another_hand(score, choice);
+           score > choice.confirmation_factor * baseline.level();
   }
   /// Effort of the next search: one of `full_search_every` searches is full. Directly after a loss, the first searches
   /// are quick, since a full one would delay the next frames.

@@ -35,6 +35,7 @@ template <class V>
 void visit(V& v, Outer& p) {
   v.user("levels", p.levels, 1, 100, "hierarchy levels");
   v.retired("depth", "levels");
+  v.without_effect("magic");
   v("seed", p.seed, 0, std::numeric_limits<std::int64_t>::max(), "of the random numbers");
   v.formerly("active");
   v("enabled", p.enabled, "what it does");
@@ -145,6 +146,21 @@ TEST_F(ConfigFile, ARetiredKeyIsReadWhereItAgreesWithItsSuccessor) {
             place(good_ + "depth: 9\n", "depth: 9") + "'depth' is now 'levels', give that alone");
   EXPECT_THAT(error_of("depth: 10\n"), HasSubstr("'depth' is now 'levels'"));
   EXPECT_THAT(good_, Not(HasSubstr("depth: ")));
+}
+
+TEST_F(ConfigFile, AKeyThatHasNoEffectAnyMoreIsReadAndNamedInOneLine) {
+  const auto printed = [&](const std::string& text) {
+    ::testing::internal::CaptureStderr();
+    const auto read = load(text);
+    EXPECT_TRUE(read) << read.error().message();
+    return ::testing::internal::GetCapturedStderr();
+  };
+  const std::string text = printed("seed: 5\nmagic: 2\n");
+  EXPECT_THAT(text, HasSubstr(path_ + ":2: 'magic' has no effect any more, leave it out\n"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+
+  EXPECT_EQ(printed(good_), "");
+  EXPECT_THAT(good_, Not(HasSubstr("magic")));
 }
 
 TEST_F(ConfigFile, MistypedValuesAreErrors) {

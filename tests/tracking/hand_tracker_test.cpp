@@ -68,7 +68,7 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
     for (int i = 1; i < (params_.ambiguous_search_every + 1) / 2; ++i)
       EXPECT_GT(error_of_next(), 0.05) << start << " " << i;
     EXPECT_LT(error_of_next(), 0.005) << start;
-    EXPECT_THAT(last_rules_, Contains("different_pose")) << start;
+    EXPECT_THAT(last_rules_, Contains("search")) << start;
   }
 }
 

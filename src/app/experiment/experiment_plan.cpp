@@ -78,7 +78,6 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   without("no_neutral_pose", [](TrackerParams& p) { p.neutral_joints = false; });
   without("one_search", [](TrackerParams& p) { p.search_attempts = 1; });
   without("no_confirmation", [](TrackerParams& p) { p.choice.confirmation_factor = 0; });
-  without("any_returning_hand", [](TrackerParams& p) { p.choice.rejection_factor = 0; });
   without("no_side_check", [](TrackerParams& p) { p.side_check = false; });
   without("no_size_check", [](TrackerParams& p) { p.size_check = false; });
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/comma_list.h"
+#include "core/log.h"
 #include "io/file_bytes.h"
 
 namespace barehand {
@@ -56,9 +57,10 @@ struct ConfigReader::State {
 
   std::string file;
   std::vector<Group> groups;
-  std::string former;                                ///< older name of the key that is visited next, or ""
-  std::map<std::string, YAML::Node> values;          ///< scalars found so far, by "group.key"
-  std::map<int, std::vector<std::string>> problems;  ///< texts by line number
+  std::string former;                                       ///< older name of the key that is visited next, or ""
+  std::map<std::string, YAML::Node> values;                 ///< scalars found so far, by "group.key"
+  std::map<int, std::vector<std::string>> problems;         ///< texts by line number
+  std::vector<std::pair<int, std::string>> without_effect;  ///< line numbers and "group.key"
 
   void problem(const YAML::Mark& mark, const std::string& text) { problems[mark.line + 1].push_back(text); }
 
@@ -216,6 +218,11 @@ void ConfigReader::retired(const char* key, const char* now) {
 
 void ConfigReader::formerly(const char* key) { state_->former = key; }
 
+void ConfigReader::without_effect(const char* key) {
+  const YAML::Node node = state_->find(key);
+  if (node.IsDefined()) state_->without_effect.emplace_back(node.Mark().line + 1, state_->groups.back().path + key);
+}
+
 void ConfigReader::begin_group(const char* key, const char*) {
   const YAML::Node node = state_->find(key);
   if (node.IsDefined() && !node.IsMap()) state_->wrong(node, "a group of keys");
@@ -230,6 +237,15 @@ void ConfigReader::end_group() {
 
 Result<void> ConfigReader::finish() {
   state_->check_unknown(state_->groups.front());
+
+  // Warn of keys without effect.
+  if (!state_->without_effect.empty()) {
+    const auto log = make_logger();
+    for (const auto& [line, key] : state_->without_effect)
+      log->warn("{}:{}: '{}' has no effect any more, leave it out", state_->file, line, key);
+  }
+
+  // Put all problems into one error, in the order of their lines.
   if (state_->problems.empty()) return {};
   std::string all;
   for (const auto& [line, texts] : state_->problems)

@@ -27,8 +27,9 @@ class ConfigReader final : public ConfigVisitor {
   /// Accepts the old key `key` if the file gives the same value to `now`, as older files do.
   void retired(const char* key, const char* now) override;
   void formerly(const char* key) override;
+  void without_effect(const char* key) override;
 
-  /// Call it after the last key. The error lists everything that was wrong.
+  /// Call it after the last key. Logs a warning for each key without effect. The error lists everything that was wrong.
   Result<void> finish();
 
  protected:

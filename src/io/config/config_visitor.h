@@ -44,6 +44,8 @@ class ConfigVisitor {
   virtual void retired(const char* key, const char* now) = 0;
   /// Names the key that is visited next as older files do, which are still read.
   virtual void formerly(const char* /*key*/) {}
+  /// Visits a key of older files that nothing has replaced, and whose value has no effect any more.
+  virtual void without_effect(const char* /*key*/) {}
 
   void operator()(const char* key, int& value, int lo, int hi, const char* doc) {
     std::int64_t wide = value;

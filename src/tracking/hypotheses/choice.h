@@ -17,7 +17,6 @@ struct ChoiceParams {
   bool uncross_fingers = true;
   double uncross_allowance = 0.05;
   double search_advantage = 0.1;
-  double different_pose_advantage = 0.3;
 
   // Absolute global scores [m].
   double sufficient_score = 0.0015;
@@ -26,7 +25,6 @@ struct ChoiceParams {
   // Multiples of the track's baseline score.
   double ambiguity_margin = 0.15;
   double confirmation_factor = 1.25;
-  double rejection_factor = 2;
 
   // These values say when a pose agrees with the detection.
   double agreement = 0.02;
@@ -47,10 +45,6 @@ void visit(V& v, ChoiceParams& p) {
   // These compare the poses that a search found with the followed one.
   v("search_advantage", p.search_advantage, 0.0, 1.0,
     "a pose found by a search replaces the followed one only if its global score is lower by this fraction");
-  v.formerly("elsewhere_advantage");
-  v("different_pose_advantage", p.different_pose_advantage, 0.0, 1.0,
-    "a pose found by a search with the palm in another place replaces the followed one only if its score is lower by "
-    "this fraction");
 
   // These judge a score by itself.
   v.formerly("search_settled");
@@ -69,10 +63,6 @@ void visit(V& v, ChoiceParams& p) {
   v("confirmation_factor", p.confirmation_factor, 0.0, 1000.0,
     "a hand that returns with a score above this multiple of its baseline score must be confirmed by the next frame; "
     "0: never");
-  v.formerly("unlike");
-  v("rejection_factor", p.rejection_factor, 0.0, 1000.0,
-    "a pose with a score above this multiple of the baseline score, and not confident, is not the hand that was lost; "
-    "0: no limit");
 
   // These set what a detection that confirms a pose does.
   v("agreement", p.agreement, 0.0, 1.0,
@@ -80,6 +70,10 @@ void visit(V& v, ChoiceParams& p) {
   v.formerly("confirmed");
   v("detection_factor", p.detection_factor, 0.0, 1.0,
     "factor on the score of a pose that a detection confirms; 1: no effect");
+
+  // These were rules of which the ablation showed no effect.
+  for (const char* key : {"different_pose_advantage", "elsewhere_advantage", "rejection_factor", "unlike"})
+    v.without_effect(key);
 }
 
 // Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.

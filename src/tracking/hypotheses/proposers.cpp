@@ -65,7 +65,7 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
   // A tentative track gets a full search, since the quick search that found it might repeat its mistake.
   const TrackerParams& params = context_.params;
   if (track.tentative()) return search_once(observation, hand, track, Effort::full, 0, frame);
-  if (!track.exceeds_baseline(followed.score(), 1 + params.choice.ambiguity_margin, params.choice)) return std::nullopt;
+  if (!track.is_ambiguous(followed.score(), params.choice)) return std::nullopt;
 
   // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
   const int frames = ++track.ambiguous_frames;

@@ -8,8 +8,9 @@
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.005;  // pose_distance() below which two poses count as the same [m]
-constexpr int kFoundAgain = 3;   // the search ends when the best pose was found this many times
+// pose_distance() [m] below which two poses count as the same, or differ only in their fingers.
+constexpr double kSame = 0.005, kSamePalm = 0.040;
+constexpr int kFoundAgain = 3;  // the search ends when the best pose was found this many times
 // After this many poses, the search ends if none explains the data, or if all but one have the palm in the same place,
 // which means that a hand is there but hard to see.
 constexpr int kMany = 8;
@@ -39,7 +40,7 @@ bool RestartConsensus::converged() const {
 
   // Many poses were found, and either none explains the data or nearly all show the hand in the same place.
   const int count = static_cast<int>(poses_.size());
-  return count >= kMany && (best_score_ > worst_ || like_best(kSamePalmDistance) >= count - 1);
+  return count >= kMany && (best_score_ > worst_ || like_best(kSamePalm) >= count - 1);
 }
 
 }  // namespace barehand

@@ -6,9 +6,6 @@
 
 namespace barehand {
 
-/// pose_distance() [m] below which two poses differ only in their fingers; the palm is in the same place.
-inline constexpr double kSamePalmDistance = 0.040;
-
 /// Collects the poses that repeated searches found in one frame and decides when to stop searching. If little of a
 /// hand is visible, very different poses may explain it fairly well, and only repetition finds the best of them.
 class RestartConsensus {
