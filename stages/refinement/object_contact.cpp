@@ -82,7 +82,7 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
     std::array<Nearest, kSegmentCount> nearest_of;
     for (int s = segment_of(0, 0); s < kSegmentCount; ++s)
       nearest_of[s] = nearest(pose, s, nearby.object->grid, T_camera_object);
-    const double firm = grip(nearest_of, hidden, nearby.held);
+    const double firm = grip(nearest_of, hidden, nearby.holder_id >= 0);
     result.grip = std::max(result.grip, firm);
 
     // Add the distance of each segment.

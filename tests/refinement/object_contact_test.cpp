@@ -27,7 +27,7 @@ class ObjectContactTest : public testing::Test {
     ball.T_base_object.t -= (kRadius + gap + segment.half_thickness[1]) * tip.R.col(1);
     if (hand_id >= 0) ball.T_base_object = pose_[kPalm].inverse() * ball.T_base_object;
     ball.hand_id = hand_id;
-    ball.held = hand_id >= 0;
+    ball.holder_id = hand_id;
     return ball;
   }
   double energy(const HandPose& pose, const NearbyObject& object) const {
@@ -104,7 +104,7 @@ TEST_F(ObjectContactTest, TipsThatAreSeenShowWhetherTheHandGrips) {
   // The thumb, which is seen, touches the object or not; all other tips are hidden.
   const auto gripped = [&](double gap, bool held) {
     NearbyObject object = ball_at_the_pad(gap, -1);
-    object.held = held;
+    object.holder_id = held ? 1 : -1;
     GaussianTree tree;
     tree.set_zero();
     return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).grip;
@@ -127,7 +127,7 @@ TEST_F(ObjectContactTest, TipsThatAreSeenShowWhetherTheHandGrips) {
 
 TEST_F(ObjectContactTest, AnObjectOutOfReachAddsNothing) {
   NearbyObject object = ball_at_the_pad(0, -1);
-  object.held = true;
+  object.holder_id = 1;
   object.T_base_object.t.z() += 0.3;
   EXPECT_EQ(energy(pose_, object), 0);
 }
