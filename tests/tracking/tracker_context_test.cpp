@@ -11,7 +11,9 @@ TEST(TrackerContext, AHandCouplesWithObjectsThatNoOtherHandHolds) {
   context.params.refinement.objects.enabled = true;
   constexpr std::int32_t kMine = 3, kOther = 4;
   const auto couples = [&](std::int32_t moves_with, std::int32_t held_by) {
-    const NearbyObject object{.object = nullptr, .hand_id = moves_with, .holder_id = held_by};
+    NearbyObject object;
+    object.hand_id = moves_with;
+    object.holder_id = held_by;
     context.couple_with({&object, 1}, kMine);
     return !context.objects.empty();
   };
