@@ -43,10 +43,10 @@ struct PosedObject {
 /// Where a known object was in an earlier frame, for the tracker of a hand near it.
 struct NearbyObject {
   KnownObjectPtr object;
-  SE3 T_base_object;          ///< base: the palm with which the object moves, or the camera if it moves with none
-  std::int32_t hand_id = -1;  ///< the hand of that palm; -1: the base is the camera
-  bool held = false;          ///< a hand holds it
-  double deviation = 0;       ///< standard deviation of its place [m]
+  SE3 T_base_object;            ///< base: the palm with which the object moves, or the camera if it moves with none
+  std::int32_t hand_id = -1;    ///< the hand of that palm; -1: the base is the camera
+  std::int32_t holder_id = -1;  ///< the hand that holds it, also if it moves with no palm; -1: none
+  double deviation = 0;         ///< standard deviation of its place [m]
 };
 
 }  // namespace barehand

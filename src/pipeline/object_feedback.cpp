@@ -41,7 +41,7 @@ FrameVector<NearbyObject> ObjectPlaces::place(std::span<const PosedObject> objec
     const double uncertain = deviation(posed);
     if (!(uncertain < kUncertain)) continue;
     NearbyObject& placed = nearby.emplace_back();
-    placed = {posed.object, posed.T_camera_object, -1, posed.hand_id >= 0, uncertain};
+    placed = {posed.object, posed.T_camera_object, -1, posed.hand_id, uncertain};
 
     // Compare how far the object moved in the camera frame and in the nearest palm.
     const Eigen::Vector3d middle = posed.T_camera_object * posed.object->centre;
@@ -54,7 +54,7 @@ FrameVector<NearbyObject> ObjectPlaces::place(std::span<const PosedObject> objec
     // Place it in the palm if it moves with that.
     if (motion.by_palm >= motion.by_camera) continue;
     placed.hand_id = hand->hand_id;
-    placed.held = placed.held || motion.by_camera > motion.by_palm + kCarried;
+    if (placed.holder_id >= 0 || motion.by_camera > motion.by_palm + kCarried) placed.holder_id = hand->hand_id;
     placed.T_base_object = T_palm_camera * posed.T_camera_object;
   }
   return nearby;

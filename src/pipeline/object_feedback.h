@@ -26,6 +26,15 @@ class ObjectFeedback {
   /// Call once for every frame that was tracked, in the same order, whether or not its objects could be found.
   void post(FrameVector<NearbyObject> objects) { results_.post(posted_++, std::move(objects)); }
 
+  /// Posts the objects of a frame at the end of the scope in which they are found: none if that fails.
+  struct Posting {
+    ObjectFeedback* feedback;  ///< null: no tracker waits
+    FrameVector<NearbyObject> objects = {};
+    ~Posting() {
+      if (feedback) feedback->post(std::move(objects));
+    }
+  };
+
  private:
   Feedback<FrameVector<NearbyObject>> results_;
   FrameVector<NearbyObject> objects_;

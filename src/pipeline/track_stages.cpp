@@ -62,15 +62,11 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
     stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects), feedback,
                       places = ObjectPlaces()](const HandObservations& observations,
                                                const HandEstimates& estimates) mutable {
-      try {
-        auto contacts = contact->process(observations, estimates);
-        if (watch) watch(contact->objects());
-        if (feedback) feedback->post(places.place(contact->known_objects(), estimates));
-        return contacts;
-      } catch (...) {
-        if (feedback) feedback->post({});  // the tracker waits for it
-        throw;
-      }
+      ObjectFeedback::Posting posting{feedback.get()};
+      auto contacts = contact->process(observations, estimates);
+      if (watch) watch(contact->objects());
+      if (feedback) posting.objects = places.place(contact->known_objects(), estimates);
+      return contacts;
     };
 
   // Grasps are classified if their classifier can be loaded.

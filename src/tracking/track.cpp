@@ -1,6 +1,7 @@
 // The data that a tracker keeps from frame to frame about its hand.
 #include "tracking/track.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "stages/pose_prior/hidden_fingers.h"
@@ -8,7 +9,7 @@
 namespace barehand {
 namespace {
 
-constexpr double kGripped = 0.5;  // from this grip on, hidden fingers stay where they are on what the hand grips
+constexpr double kRests = 0.5;  // hidden fingers that rest more firmly on what the hand grips stay where they are
 
 }  // namespace
 
@@ -16,9 +17,12 @@ void Track::continue_with(const Hypothesis& best, const HandProfile& profile, co
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = best.refined.matched[s] >= params.seen_fraction;
   HandPose pose = best.refined.pose;
-  if (params.hidden_follow && best.refined.grip < kGripped)
-    pose = with_hidden_following(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched,
+  if (params.hidden_follow) {
+    std::array<bool, kFingerCount> stays;
+    std::ranges::transform(best.refined.rests, stays.begin(), [](double firmly) { return firmly > kRests; });
+    pose = with_hidden_following(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched, stays,
                                  params.initialiser.widening);
+  }
   motion.update(pose, seen, *best.prediction);
 }
 

@@ -34,8 +34,9 @@ struct TrackerContext {
   void couple_with(std::span<const NearbyObject> nearby, std::int32_t hand_id) {
     objects.clear();
     if (!params.refinement.objects.enabled) return;
+    const auto of_other = [&](std::int32_t id) { return id >= 0 && id != hand_id; };
     for (const NearbyObject& object : nearby)
-      if (object.hand_id < 0 || object.hand_id == hand_id) objects.push_back(object);
+      if (!of_other(object.hand_id) && !of_other(object.holder_id)) objects.push_back(object);
   }
 };
 

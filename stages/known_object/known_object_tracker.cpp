@@ -181,7 +181,10 @@ std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, co
                                                           std::span<const Vector3f> points) {
   // Follow the object, or search for it.
   const double dt = static_cast<double>(utime - utime_) * 1e-6;
-  if (std::abs(dt) > kLongestStep || std::abs(utime - seen_) > kForgotten) hypotheses_.clear();
+  if (std::abs(dt) > kLongestStep || std::abs(utime - seen_) > kForgotten) {
+    hypotheses_.clear();
+    holding_ = {};
+  }
   bool seen = !hypotheses_.empty() && follow(std::abs(dt), view, estimates, points);
   const bool found = !seen && find(view, estimates, points);
   if (found) seen = follow(0, view, {}, points);

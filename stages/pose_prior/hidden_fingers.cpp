@@ -57,7 +57,8 @@ HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, c
 }
 
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
-                               const Seen& seen, const std::array<double, kSegmentCount>& shown, double widening) {
+                               const Seen& seen, const std::array<double, kSegmentCount>& shown,
+                               const std::array<bool, kFingerCount>& stays, double widening) {
   constexpr double kMemory = 1.5;  // time constant with which the difference from the neighbours decays [s]
   constexpr double kSliver = 0.3;  // a segment with a smaller visible fraction does not show how a grasp closes
   constexpr double kThumbShare =
@@ -79,7 +80,7 @@ HandPose with_hidden_following(const HandProfile& profile, const HandPose& befor
   // Move the hidden joints from the palm to the tips.
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
-    if (!hidden_to_its_tip(s, seen)) continue;
+    if (stays[finger_of(s)] || !hidden_to_its_tip(s, seen)) continue;
     const int parent = parent_of(s);
     result[s] = result[parent] * (now[parent].inverse() * now[s]);
 

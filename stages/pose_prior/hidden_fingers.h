@@ -19,9 +19,11 @@ HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose,
 /// with all joints after it bends by as much as the same joints of the nearest seen fingers have bent since `before`,
 /// `dt` [s] ago, within the profile's limits widened by `widening` [rad]. Any other difference from these joints decays
 /// within seconds. If only the thumb is seen, all fingers bend with it, since a grasp closes all digits at once. The
-/// thumb and everything seen stay unchanged. `shown`: the fraction of each segment's skin that matches data.
+/// thumb and everything seen stay unchanged, and so do the fingers that rest on an object (`stays`). `shown`: the
+/// fraction of each segment's skin that matches data.
 HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
                                const std::array<bool, kSegmentCount>& seen,
-                               const std::array<double, kSegmentCount>& shown, double widening);
+                               const std::array<double, kSegmentCount>& shown,
+                               const std::array<bool, kFingerCount>& stays, double widening);
 
 }  // namespace barehand

@@ -82,8 +82,7 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
     std::array<Nearest, kSegmentCount> nearest_of;
     for (int s = segment_of(0, 0); s < kSegmentCount; ++s)
       nearest_of[s] = nearest(pose, s, nearby.object->grid, T_camera_object);
-    const double firm = grip(nearest_of, hidden, nearby.held);
-    result.grip = std::max(result.grip, firm);
+    const double firm = grip(nearest_of, hidden, nearby.holder_id >= 0);
 
     // Add the distance of each segment.
     for (int s = segment_of(0, 0); s < kSegmentCount; ++s) {
@@ -91,12 +90,18 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
       const double d = near.distance;
       if (d >= DistanceGrid::kMargin) continue;
 
-      // A tip that is not seen rests on what the hand holds.
+      // A tip that is not seen rests on what the hand holds if its pad, away from the back of the hand, faces that.
       double information = 1 / (sq(params_.sigma_inside) + sq(nearby.deviation)), root = 1;
+      double holds = firm * hidden[s];
       if (d > 0) {
         if (!is_tip(s)) continue;
-        information = firm * hidden[s] / (sq(params_.sigma_touch) + sq(nearby.deviation));
+        holds *= std::clamp(near.gradient.dot(pose[s].R.col(1)), 0.0, 1.0);
+        information = holds / (sq(params_.sigma_touch) + sq(nearby.deviation));
         root = sq(params_.touch_scale) / (sq(params_.touch_scale) + sq(d));
+      }
+      if (is_tip(s)) {
+        double& rests = result.rests[finger_of(s)];
+        rests = std::max(rests, holds * root);
       }
 
       // Add the distance with the weight of the robust loss.

@@ -38,7 +38,7 @@ class ObjectContact {
   /// What add_terms() added.
   struct Terms {
     double energy = 0;
-    double grip = 0;  ///< how firmly the hand grips one of the objects, from 0 to 1
+    std::array<double, kFingerCount> rests{};  ///< how firmly each hidden fingertip rests on an object, from 0 to 1
   };
   /// Adds the distances of the fingers from the objects as least-squares residuals to `tree`; returns the energy. The
   /// distance of a segment is that of the point of its skin that is nearest to the object, or deepest within it.

@@ -90,7 +90,7 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   if (!objects.empty()) {
     std::array<double, kSegmentCount> hidden;
     std::ranges::transform(seen, hidden.begin(), [](double share) { return 1 - share; });
-    refined.grip = object_contact_.add_terms(pose, objects, hidden, tree).grip;
+    refined.rests = object_contact_.add_terms(pose, objects, hidden, tree).rests;
   }
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {

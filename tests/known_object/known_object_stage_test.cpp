@@ -159,6 +159,24 @@ TEST_F(KnownObjects, AreLostBehindAHandAndFoundAgain) {
   EXPECT_LT(turn(*state), 3 * kDegree);
 }
 
+TEST_F(KnownObjects, AreNotHeldWhenTheyAreFoundAgainLongAfter) {
+  look_for(test::hammer_mesh());
+  while (!next() && utime_ < 2'000'000) continue;
+  Vector6d twist = Vector6d::Zero();
+  twist.x() = 0.004;
+  for (int i = 0; i < 10; ++i) move(twist), next();
+  EXPECT_TRUE(next()->held);
+
+  // For half a second and more nothing shows it.
+  scene_.covered_from = 0;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(next());
+  scene_.covered_from = 200;
+  std::optional<ObjectEstimate> state;
+  for (int i = 0; i < 10 && !state; ++i) state = next();
+  ASSERT_TRUE(state);
+  EXPECT_FALSE(state->held);
+}
+
 TEST_F(KnownObjects, AreNotStatedWhereThereAreNone) {
   look_for(test::hammer_mesh());
   const KnownObjectPtr other = make_known_object(test::box_mesh({0.08f, 0.15f, 0.05f}), 9);

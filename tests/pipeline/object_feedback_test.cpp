@@ -53,6 +53,14 @@ TEST(ObjectPlaces, AnObjectThatThePalmLeavesIsPlacedInTheCameraFrame) {
   EXPECT_EQ(placed_after(step, step, TrackStatus::lost).hand_id, -1) << "without a tracked hand";
 }
 
+TEST(ObjectPlaces, AnObjectThatAHandHoldsIsItsWhereverItIsPlaced) {
+  // A hand that is lost holds it.
+  const std::array held = {at({0.1, 0.05, 0.6}, 0.001, 7)};
+  const NearbyObject placed = ObjectPlaces().place(held, {}).at(0);
+  EXPECT_EQ(placed.hand_id, -1);
+  EXPECT_EQ(placed.holder_id, 7);
+}
+
 TEST(ObjectPlaces, AnObjectWhosePlaceIsUncertainIsLeftOut) {
   const std::array objects = {at({0.1, 0.05, 0.6}, 0.02, -1)};
   EXPECT_TRUE(ObjectPlaces().place(objects, {}).empty());
@@ -77,6 +85,23 @@ TEST(ObjectFeedback, TheTrackerGetsTheObjectsOfAFixedNumberOfFramesBefore) {
     const std::size_t expected = k < kLag ? 0 : k - kLag;
     EXPECT_EQ(feedback.wait().size(), expected);
     EXPECT_EQ(feedback.wait().size(), expected) << "after a failure";
+    feedback.next();
+  }
+}
+
+TEST(ObjectFeedback, TheTrackerGetsNoObjectsOfAFrameThatFailed) {
+  ObjectFeedback feedback;
+  for (const bool fails : {false, true, false}) {
+    try {
+      ObjectFeedback::Posting posting{&feedback};
+      if (fails) throw std::runtime_error("no objects");
+      posting.objects = of_frame(5);
+    } catch (const std::runtime_error&) {
+    }
+  }
+  for (std::int64_t k = 0; k < ObjectFeedback::kLag; ++k) feedback.next();
+  for (const std::size_t expected : {5, 0, 5}) {
+    EXPECT_EQ(feedback.wait().size(), expected);
     feedback.next();
   }
 }

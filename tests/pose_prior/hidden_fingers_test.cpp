@@ -28,7 +28,7 @@ class HiddenFingers : public testing::TestWithParam<Handedness> {
   HandPose following(const HandPose& before, const HandPose& now, double dt) const {
     std::array<double, kSegmentCount> shown;
     for (int s = 0; s < kSegmentCount; ++s) shown[s] = seen_[s] ? 1.0 : 0.0;
-    return with_hidden_following(profile_, before, now, dt, seen_, shown, kWidening);
+    return with_hidden_following(profile_, before, now, dt, seen_, shown, stay_, kWidening);
   }
   /// A pose with the given flexion of all fingers, from root to tip, and of the thumb [degrees].
   HandPose bent(double first, double second, double third, double thumb = 0) const {
@@ -56,6 +56,7 @@ class HiddenFingers : public testing::TestWithParam<Handedness> {
   HandProfile profile_;
   std::array<JointLimits, kSegmentCount> limits_{};
   std::array<bool, kSegmentCount> seen_{};
+  std::array<bool, kFingerCount> stay_{};
 };
 
 TEST_P(HiddenFingers, AreAtEaseLikeTheirNeighbours) {
@@ -172,6 +173,20 @@ TEST_P(HiddenFingers, DoNotMoveWithTheThumbWhereAFingerOrNoThumbIsSeen) {
   stays();
 }
 
+TEST_P(HiddenFingers, StayWhereTheyRestOnAnObject) {
+  const HandPose before = bent(20, 30, 10), closing = bent(40, 50, 30);
+  HandPose now = with_finger_of(closing, before, kRing);
+  now = with_finger_of(now, before, kLittle);
+  hide(seen_, kRing);
+  hide(seen_, kLittle);
+  stay_[kLittle] = true;
+  const HandPose moved = following(before, now, kAtOnce);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(flexion(moved, kRing, k), flexion(closing, kRing, k), 1e-6);
+    EXPECT_NEAR(flexion(moved, kLittle, k), flexion(before, kLittle, k), 1e-6);
+  }
+}
+
 TEST_P(HiddenFingers, CloseWithTheThumbBesideASliverOfAFinger) {
   const HandPose before = bent(20, 30, 10, 0), now = bent(20, 30, 10, 10);
   for (int finger = kIndex; finger < kFingerCount; ++finger) hide(seen_, finger);
@@ -180,7 +195,7 @@ TEST_P(HiddenFingers, CloseWithTheThumbBesideASliverOfAFinger) {
     std::array<double, kSegmentCount> shown{};
     for (int k = 0; k < 3; ++k) shown[segment_of(kThumb, k)] = 1;
     shown[segment_of(kLittle, 0)] = shown_of_a_knuckle;
-    return flexion(with_hidden_following(profile_, before, now, kAtOnce, seen_, shown, kWidening), kRing, 1);
+    return flexion(with_hidden_following(profile_, before, now, kAtOnce, seen_, shown, stay_, kWidening), kRing, 1);
   };
   EXPECT_NEAR(middle_joint(0.2), 40, 1e-6);
   EXPECT_NEAR(middle_joint(0.5), 30, 1e-6);

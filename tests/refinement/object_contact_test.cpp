@@ -27,8 +27,18 @@ class ObjectContactTest : public testing::Test {
     ball.T_base_object.t -= (kRadius + gap + segment.half_thickness[1]) * tip.R.col(1);
     if (hand_id >= 0) ball.T_base_object = pose_[kPalm].inverse() * ball.T_base_object;
     ball.hand_id = hand_id;
-    ball.held = hand_id >= 0;
+    ball.holder_id = hand_id;
     return ball;
+  }
+  /// A wall whose surface is about `gap` [m] from the pad of the index finger, and parallel to it.
+  NearbyObject wall_at_the_pads(double gap, bool held) const {
+    const int index = segment_of(1, 2);
+    const SegmentProfile& segment = profile_->segments[index];
+    const SE3& tip = pose_[index];
+    NearbyObject wall{wall_, {tip.R, tip * Eigen::Vector3d(0.8 * segment.distal)}};
+    wall.T_base_object.t -= (kWall / 2 + gap + segment.half_thickness[1]) * tip.R.col(1);
+    wall.holder_id = held ? 1 : -1;
+    return wall;
   }
   double energy(const HandPose& pose, const NearbyObject& object) const {
     GaussianTree unused;
@@ -57,17 +67,18 @@ class ObjectContactTest : public testing::Test {
                                 kStep, kArm);
   }
 
-  static constexpr float kRadius = 0.012f;
+  static constexpr float kRadius = 0.012f, kWall = 0.02f;  // radius of the ball, thickness of the wall [m]
   std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   HandPose pose_ = test::facing_pose(*profile_, 0.45, 0.35);
   KnownObjectPtr ball_ = make_known_object(test::ball_mesh(kRadius), 1);
+  KnownObjectPtr wall_ = make_known_object(test::box_mesh({0.2f, kWall, 0.1f}), 2);
   std::array<double, kSegmentCount> hidden_{};
   HandSurface surface_ = surface_points(make_blended_skin(*profile_, 0.004), *profile_, 60);
   ObjectContact contact_{{}, surface_};
 };
 
 TEST_F(ObjectContactTest, GradientsMatchCentralDifferencesAndWrongOnesAreRejected) {
-  for (const auto& [gap, hand] : {std::pair{-0.005, -1}, {-0.005, 1}, {0.008, 1}}) {
+  for (const auto& [gap, hand] : {std::pair{-0.005, -1}, {-0.005, 1}}) {
     const NearbyObject object = ball_at_the_pad(gap, hand);
     GaussianTree tree;
     tree.set_zero();
@@ -82,6 +93,24 @@ TEST_F(ObjectContactTest, GradientsMatchCentralDifferencesAndWrongOnesAreRejecte
     for (Vector6d& g : wrong.g) g.tail<3>() *= -1;
     EXPECT_GT(gradient_error(object, wrong), 0.1);
   }
+}
+
+TEST_F(ObjectContactTest, TheDrawIsTheDerivativeAlongThePad) {
+  // How well the pad faces the object weights the draw, and counts as fixed in a step: move along that direction only.
+  NearbyObject ball = ball_at_the_pad(0.008, -1);
+  ball.holder_id = 1;
+  GaussianTree tree;
+  tree.set_zero();
+  contact_.add_terms(pose_, {&ball, 1}, hidden_, tree);
+  const Eigen::Vector3d dorsal = pose_[kTip].R.col(1), place = ball.T_base_object.t;
+  const double derivative = -2 * tree.g[kTip].head<3>().dot(dorsal);
+
+  // The tip moves away from the ball as the ball moves away from it.
+  constexpr double kStep = 1e-4;
+  ball.T_base_object.t = place - kStep * dorsal;
+  const double farther = energy(pose_, ball);
+  ball.T_base_object.t = place + kStep * dorsal;
+  EXPECT_NEAR((farther - energy(pose_, ball)) / (2 * kStep) / derivative, 1, 0.05);
 }
 
 TEST_F(ObjectContactTest, OnlyHiddenTipsOfTheHandThatHoldsItAreDrawnToAnObject) {
@@ -101,33 +130,65 @@ TEST_F(ObjectContactTest, OnlyHiddenTipsOfTheHandThatHoldsItAreDrawnToAnObject) 
 }
 
 TEST_F(ObjectContactTest, TipsThatAreSeenShowWhetherTheHandGrips) {
-  // The thumb, which is seen, touches the object or not; all other tips are hidden.
-  const auto gripped = [&](double gap, bool held) {
-    NearbyObject object = ball_at_the_pad(gap, -1);
-    object.held = held;
+  // The index fingertip, which is seen, touches a wall or not; so does that of the middle finger, which is hidden.
+  const auto rests = [&](double gap, bool held) {
+    const NearbyObject object = wall_at_the_pads(gap, held);
     GaussianTree tree;
     tree.set_zero();
-    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).grip;
+    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).rests[2];
   };
-  hidden_[kTip] = 0;
-  EXPECT_EQ(gripped(0.001, false), 1);
-  EXPECT_EQ(gripped(0.001, true), 1);
-  EXPECT_EQ(gripped(0.012, true), 0);
+  const int index = segment_of(1, 2);
+  hidden_[index] = 0;
+  EXPECT_GT(rests(0.001, false), 0.5);
+  EXPECT_GT(rests(0.001, true), 0.5);
+  EXPECT_EQ(rests(0.012, true), 0);
 
   // No tip is seen.
-  hidden_[kTip] = 1;
-  EXPECT_EQ(gripped(0.001, true), 1);
-  EXPECT_EQ(gripped(0.001, false), 0);
+  hidden_[index] = 1;
+  EXPECT_GT(rests(0.001, true), 0.5);
+  EXPECT_EQ(rests(0.001, false), 0);
 
   // The little finger shows that the hand is open.
   hidden_[segment_of(4, 2)] = 0;
-  EXPECT_EQ(gripped(0.008, true), 0);
   EXPECT_EQ(energy(pose_, ball_at_the_pad(0.008, 1)), 0);
+}
+
+TEST_F(ObjectContactTest, OnlyPadsAreDrawnToAnObject) {
+  const SE3& tip = pose_[kTip];
+  NearbyObject ball = ball_at_the_pad(0.008, -1);
+  ball.holder_id = 1;
+  const double at_the_pad = energy(pose_, ball);
+  EXPECT_GT(at_the_pad, 0.1);
+
+  // The same ball on the back of the tip, and on both of its sides.
+  const SegmentProfile& segment = profile_->segments[kTip];
+  const Eigen::Vector3d middle = tip * Eigen::Vector3d(0.8 * segment.distal);
+  ball.T_base_object.t = middle + (middle - ball.T_base_object.t);
+  EXPECT_EQ(energy(pose_, ball), 0);
+  for (const int side : {-1, 1}) {
+    ball.T_base_object.t = middle + side * (kRadius + 0.008 + segment.half_width[1]) * tip.R.col(0);
+    EXPECT_LT(energy(pose_, ball), 0.3 * at_the_pad) << side;
+  }
+}
+
+TEST_F(ObjectContactTest, OnlyTipsNearTheSurfaceRestOnAnObject) {
+  const auto rests = [&](double gap) {
+    const NearbyObject object = ball_at_the_pad(gap, 1);
+    GaussianTree tree;
+    tree.set_zero();
+    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).rests;
+  };
+  EXPECT_GT(rests(0.001)[0], 0.9);
+  EXPECT_EQ(rests(-0.002)[0], 1);
+  EXPECT_LT(rests(0.02)[0], 0.5);
+  EXPECT_EQ(rests(0.001)[3], 0) << "the ring finger is far away";
+  hidden_[kTip] = 0;
+  EXPECT_EQ(rests(0.001)[0], 0) << "the thumb is seen";
 }
 
 TEST_F(ObjectContactTest, AnObjectOutOfReachAddsNothing) {
   NearbyObject object = ball_at_the_pad(0, -1);
-  object.held = true;
+  object.holder_id = 1;
   object.T_base_object.t.z() += 0.3;
   EXPECT_EQ(energy(pose_, object), 0);
 }
