@@ -1,13 +1,28 @@
 #include "evaluation/object_evaluation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "io/file_bytes.h"
 #include "io/hand/table_fields.h"
+#include "object/half_turns.h"
 #include "object/known_object.h"
 
 namespace barehand {
+namespace {
+
+/// The mean distance of a surface's samples, moved, from the surface [m].
+double mean_distance(const MeshDistance& surface, const std::vector<SurfaceSample>& samples, const SE3& motion) {
+  double sum = 0;
+  for (const SurfaceSample& sample : samples) sum += surface.nearest(motion * sample.p.cast<double>()).distance;
+  return sum / static_cast<double>(samples.size());
+}
+
+/// The angle between two orientations [rad].
+double rotation_error(const SE3& a, const SE3& b) { return log_so3(a.R * b.R.transpose()).norm(); }
+
+}  // namespace
 
 Result<ObjectTruthTable> read_object_truth(const std::string& path) {
   // Read the file, and check that it is a table of object poses.
@@ -55,6 +70,15 @@ Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const Ob
   const std::vector<SurfaceSample> samples = sample_surface(mesh);
   const MeshDistance surface(mesh.vertices, mesh.triangles);
 
+  // Find the symmetries.
+  std::vector<SE3> same{SE3()};
+  for (const SE3& turn : half_turns(mesh)) {
+    const double moved = mean_distance(surface, samples, turn);
+    if (moved >= kSameSurfaceTurned) continue;
+    same.push_back(turn);
+    out.symmetries.push_back(moved);
+  }
+
   // Visit the frames of the truth; those without a stated pose are lost only after the first stated one.
   std::vector<double> position, rotation, apart;
   for (const auto& [utime, T_true] : truth.poses) {
@@ -65,18 +89,16 @@ Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const Ob
       continue;
     }
 
-    // Compare the poses, and where they put the surface.
+    // Compare the poses that look like the stated one, and keep the errors of that with the least rotation.
     ++out.stated;
-    const SE3& T = found->second;
-    position.push_back((T.t - T_true.t).norm());
-    rotation.push_back(log_so3(T.R * T_true.R.transpose()).norm());
+    const auto angle = [&](const SE3& turn) { return rotation_error(found->second * turn, T_true); };
+    const SE3& turn = *std::ranges::min_element(same, {}, angle);
+    out.turned += &turn != &same.front();
+    position.push_back(((found->second * turn).t - T_true.t).norm());
+    rotation.push_back(angle(turn));
 
-    // Average the distance of the surface as stated from the true one.
-    const SE3 T_true_stated = T_true.inverse() * T;
-    double sum = 0;
-    for (const SurfaceSample& sample : samples)
-      sum += surface.nearest(T_true_stated * sample.p.cast<double>()).distance;
-    apart.push_back(sum / static_cast<double>(samples.size()));
+    // Compare where the stated pose itself puts the surface.
+    apart.push_back(mean_distance(surface, samples, T_true.inverse() * found->second));
   }
 
   // It is an error if there was nothing to compare.

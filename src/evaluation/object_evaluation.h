@@ -25,15 +25,22 @@ struct ObjectTruthTable {
 /// Reads a table of object poses (docs/formats.md). Errors name the line: a malformed number, another object.
 Result<ObjectTruthTable> read_object_truth(const std::string& path);
 
-/// Stated against true poses of one object.
+/// A half turn about a principal axis is a symmetry that nobody could see if it moves the surface by less than this in
+/// the mean [m].
+inline constexpr double kSameSurfaceTurned = 0.0005;
+
+/// Stated against true poses of one object. A pose is compared as if it were turned by the symmetry with which its
+/// rotation errs least.
 struct ObjectEvaluation {
   std::string name;
   std::size_t frames = 0;  ///< number of frames in the truth
   std::size_t stated = 0;  ///< number of frames with a stated pose
   std::size_t lost = 0;    ///< number of frames without a stated pose, after the first one
-  Distribution position;   ///< distance of the origins [m]
-  Distribution rotation;   ///< angle between the orientations [rad]
-  Distribution surface;    ///< mean distance of the stated surface's points from the true surface [m], as ADD-S
+  std::size_t turned = 0;  ///< number of stated poses that were compared half a turn from where they were stated
+  std::vector<double> symmetries;  ///< by how much each half turn that counts as none moves the surface [m]
+  Distribution position;           ///< distance of the origins [m]
+  Distribution rotation;           ///< angle between the orientations [rad]
+  Distribution surface;            ///< mean distance of the stated surface's points from the true surface [m], as ADD-S
 };
 
 /// Compares over the frames of the truth. Error: no frame has both poses.

@@ -40,6 +40,9 @@ struct HandContacts {
   SegmentContacts object, own, other_hand;
 };
 
+/// Unknown objects have ids from here on. Those of known objects are their places among the options: 1, 2 and so on.
+inline constexpr std::int32_t kFirstUnknownObject = 1001;
+
 /// An object in or near a hand. Camera frame, metres.
 struct ObjectEstimate {
   std::int32_t id = 0;  ///< stays with one object for as long as it is seen

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "math/random.h"
+#include "object/half_turns.h"
 
 namespace barehand {
 namespace {
@@ -63,7 +64,7 @@ KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
   // Leave out the samples of one part of the object that lie inside another part.
   std::erase_if(samples, [&](const SurfaceSample& sample) { return grid.distance(sample.p) < -cell; });
   return std::make_shared<KnownObject>(
-      KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius});
+      KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius, half_turns(mesh)});
 }
 
 }  // namespace barehand

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "math/se3.h"
@@ -22,6 +23,7 @@ struct KnownObject {
   Eigen::Vector3d centre;              ///< centre of the bounding box
   Eigen::Vector3d extent;              ///< size of the bounding box [m]
   double radius = 0;                   ///< all of the surface is within this distance of the centre [m]
+  std::array<SE3, 3> half_turns;       ///< as half_turns() of its mesh
 };
 using KnownObjectPtr = std::shared_ptr<const KnownObject>;
 

@@ -30,7 +30,7 @@ std::shared_ptr<ContactStage> make_contact_stage(const ContactParams& params,
                                                  const std::vector<KnownObjectPtr>& objects) {
   if (objects.empty()) return std::make_shared<ContactStage>(params);
   KnownObjectFinder find = std::bind_front(&KnownObjectStage::process, std::make_shared<KnownObjectStage>(objects));
-  return std::make_shared<ContactStage>(params, std::move(find), static_cast<int>(objects.size()));
+  return std::make_shared<ContactStage>(params, std::move(find));
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ using KnownObjectFinder =
 class ContactStage {
  public:
   explicit ContactStage(const ContactParams& params) : params_(params) {}
-  /// `find_known`: finds `known` objects, whose ids are 1 to `known`.
-  ContactStage(const ContactParams& params, KnownObjectFinder find_known, int known)
-      : params_(params), find_known_(std::move(find_known)), objects_(known + 1) {}
+  /// `find_known`: finds known objects, whose ids are below kFirstUnknownObject.
+  ContactStage(const ContactParams& params, KnownObjectFinder find_known)
+      : params_(params), find_known_(std::move(find_known)) {}
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
   /// The unknown objects (those for which no mesh was given), as they were in the last frame.
   std::span<const ObjectTrack> objects() const { return objects_.tracks(); }

@@ -13,9 +13,6 @@ namespace barehand {
 /// held while it moves with a palm; what continues out of view, as a table does, is never held and has no model.
 class ObjectTracker {
  public:
-  /// `first_id`: the id of the first object; smaller ids belong to known objects.
-  explicit ObjectTracker(std::int32_t first_id = 1) : next_id_(first_id) {}
-
   /// Removes the points of specks, sets SurfacePoint::object of the others, and appends points of the objects' models
   /// that are hidden in this frame. `open`: as SurfaceCells::collect() fills it.
   void process(std::int64_t utime, const HandEstimates& estimates, const ObservedSpace& space,
@@ -49,7 +46,7 @@ class ObjectTracker {
   std::vector<Cluster> clusters_;          // indexed by the first component; those of the other components are empty
   std::vector<ObjectTrack> tracks_;
   std::int64_t last_ = 0;  // time of the last frame [us]
-  std::int32_t next_id_;
+  std::int32_t next_id_ = kFirstUnknownObject;
 };
 
 }  // namespace barehand

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "math/angles.h"
-#include "object/half_turns.h"
 #include "stages/known_object/object_fit.h"
 
 namespace barehand {
@@ -183,7 +182,7 @@ std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const
   // The best one may be wrong by half a turn that changes little of what shows.
   const auto cost = [](const FoundPose& pose) { return pose.quality.cost(); };
   const SE3 best = std::ranges::min_element(found_, {}, cost)->T_camera_object;
-  for (const SE3& turn : half_turns(object.samples)) refine(object, view, points, best * turn);
+  for (const SE3& turn : object.half_turns) refine(object, view, points, best * turn);
   std::ranges::sort(found_, {}, cost);
 
   // Leave out what is almost the same as a better one.

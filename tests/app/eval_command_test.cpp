@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/lcm/layouts.h"
+#include "hand/contacts.h"
 #include "io/hand/hand_json.h"
 #include "io/hand/result_table.h"
 #include "io/lcm/lcm_log_writer.h"
@@ -291,6 +292,20 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   EXPECT_EQ(report["frames"], 4);
   EXPECT_EQ(report["stated"], 1);
   EXPECT_EQ(report["lost"], 3);
+
+  // A log in which no known object is stated is refused.
+  log = LcmLogWriter::create(folder_ / "unknown.lcmlog", false);
+  ASSERT_TRUE(log);
+  object_state_t unknown{};
+  unknown.object_id = kFirstUnknownObject;
+  unknown.orientation[0] = 1;
+  ASSERT_TRUE((*log)->send("OBJECT_STATE", encode_message(unknown), 1'000'000));
+  grasp_state_t grasp{};
+  grasp.utime = 1'000'000;
+  ASSERT_TRUE((*log)->send("GRASP_STATE", encode_message(grasp), grasp.utime));
+  ASSERT_TRUE((*log)->finish());
+  EXPECT_EQ(run("eval --states %/unknown.lcmlog --grasps %/grasps.csv --objects %/objects.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("holds no pose of a known object, but 1 of unknown ones"));
 }
 
 }  // namespace

@@ -134,8 +134,7 @@ class KnownWall : public Contacts {
     ObjectMesh mesh = test::box_mesh({0.6f, 0.6f, 0.05f});
     const SE3 T{Eigen::Matrix3d::Identity(), {0, 0, back_[tip] + gap + 0.025}};
     const PosedObject wall{make_known_object(mesh, 1), T, 1e-8 * Matrix6d::Identity(), holder};
-    ContactStage stage(
-        {}, [&](const auto&, const auto&, auto&, auto&) { return std::vector<PosedObject>{wall}; }, 1);
+    ContactStage stage({}, [&](const auto&, const auto&, auto&, auto&) { return std::vector<PosedObject>{wall}; });
     return stage.process({test::observe_skin(skin_, pose_, 2)}, {estimate}).value()->hands[0].object[tip];
   }
 };

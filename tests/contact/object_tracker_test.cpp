@@ -56,6 +56,7 @@ TEST_F(Objects, PiecesAFingersWidthApartAreOneAndFarOnesAreTwo) {
 TEST_F(Objects, AnIdStaysWhileTheObjectMoves) {
   piece({0, 0, 0.5f});
   const std::int32_t id = frame()[0].id;
+  EXPECT_GE(id, kFirstUnknownObject);
   for (int k = 1; k < 10; ++k) {
     piece({0.02f * k, 0, 0.5f});
     ASSERT_EQ(frame().size(), 1u);

@@ -3,9 +3,11 @@
 is stated with the truth.
   tools/measure/measure_contacts.py BAREHAND OUT [SEQUENCE ...]
 SEQUENCE is what `barehand track --source sim:` takes. By default these are the sequences of the page. What is in OUT
-already is not simulated or tracked again. Prints one row a sequence, then the figures of each group together."""
+already is not simulated or tracked again; to track with another program, remove the files named "tracked". Prints one
+row a sequence, then the figures of each group together."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -24,14 +26,17 @@ def run(*command):
 def prepare(barehand, out, sequence):
     """Simulates and tracks a sequence, and returns its folder."""
     folder = os.path.join(out, sequence.replace(",", "_").replace("=", "_"))
-    log, done = os.path.join(folder, "states.lcmlog"), os.path.join(folder, "done")
-    if not os.path.exists(done):
+    log, simulated, tracked = (os.path.join(folder, name) for name in ("states.lcmlog", "simulated", "tracked"))
+    if not os.path.exists(simulated):
+        shutil.rmtree(folder, ignore_errors=True)  # it may hold a part of a recording
         name, *keys = sequence.split(",")
         run(barehand, "sim", name, *(argument for key in keys for argument in ("--set", key)), "--fps", str(RATE),
             "--out", folder)
+        open(simulated, "w").close()
+    if not os.path.exists(tracked):
         run(barehand, "track", "--source", "folder:" + folder, "--config", os.path.join(out, "contacts.yaml"),
             "--no-publish", "--threads", "1", "--states-log", log, "--overwrite")
-        open(done, "w").close()
+        open(tracked, "w").close()
     return folder
 
 

@@ -136,10 +136,14 @@ Json to_json(const GraspEvaluation& e) {
 }
 
 Json to_json(const ObjectEvaluation& e) {
+  Json symmetries = Json::array();
+  for (const double moved : e.symmetries) symmetries.push_back(kMillimetre * moved);
   return {{"object", e.name},
           {"frames", e.frames},
           {"stated", e.stated},
           {"lost", e.lost},
+          {"turned", e.turned},
+          {"symmetries_mm", std::move(symmetries)},
           {"position_mm", to_json(e.position, kMillimetre)},
           {"rotation_degrees", to_json(e.rotation, 1 / kDegree)},
           {"surface_mm", to_json(e.surface, kMillimetre)}};

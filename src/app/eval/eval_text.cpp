@@ -161,6 +161,10 @@ void print_grasps(std::string& out, const GraspEvaluation& e) {
 
 void print_object(std::string& out, const ObjectEvaluation& e) {
   out += formatted("object %s: %zu frames, stated %zu, lost %zu\n", e.name.c_str(), e.frames, e.stated, e.lost);
+  for (const double moved : e.symmetries)
+    out +=
+        formatted("  half a turn that moves the surface by %.2f mm in the mean counts as none\n", kMillimetre * moved);
+  if (e.turned > 0) out += formatted("  %zu poses are stated half a turn from the truth\n", e.turned);
   print_head(out, "error");
   print_row(out, "position [mm]", e.position, kMillimetre);
   print_row(out, "rotation [degrees]", e.rotation, 1 / kDegree);

@@ -4,13 +4,16 @@
 #include <cmath>
 
 #include "barehand/object_state_t.hpp"
+#include "core/format.h"
 #include "drivers/lcm/layouts.h"
+#include "hand/contacts.h"
 #include "io/lcm/message_log.h"
 
 namespace barehand {
 namespace {
 
-constexpr double kUnit = 1e-3;  // deviation of a unit quaternion's norm from 1
+constexpr std::int32_t kFirst = 1;  // id of the first known object
+constexpr double kUnit = 1e-3;      // deviation of a unit quaternion's norm from 1
 
 }  // namespace
 
@@ -18,6 +21,7 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
   auto log = MessageLog::open(log_path);
   if (!log) return tl::unexpected(log.error());
   ObjectPoses poses;
+  std::size_t unknown = 0;
 
   // Read the messages about the first object, and leave out those that hold no rigid motion.
   for (const LogEntry& entry : log->entries()) {
@@ -25,7 +29,9 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
     const auto bytes = log->read(entry);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto state = decode_message<object_state_t>(*bytes);
-    if (!state || state->object_id != 1) continue;
+    if (!state) continue;
+    unknown += state->object_id >= kFirstUnknownObject;
+    if (state->object_id != kFirst) continue;
 
     const double* q = state->orientation;
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
@@ -37,8 +43,9 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
 
   // Refuse a log without any pose.
   if (poses.empty())
-    return fail("holds no pose of object 1", log_path,
-                "give a log written by barehand track --states-log or --mcap with --object");
+    return fail(unknown == 0 ? "holds no pose of a known object"
+                             : formatted("holds no pose of a known object, but %zu of unknown ones", unknown),
+                log_path, "give a log written by barehand track --states-log or --mcap with --object");
   return poses;
 }
 
