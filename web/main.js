@@ -56,7 +56,7 @@ const connection = new Connection({
     status = message;
     byId("source").textContent = message.source;
     showHealth(message);
-    timeline.show(message.log);
+    timeline.show(message.log, hasStates());
     applyRoom();
     recorder.show(message.record);
     showScan(message.scan || null);
@@ -120,11 +120,14 @@ function problem() {
   const paused = status && status.log && !status.log.playing;
   if (!shown || (performance.now() - frameAt > kSlowFrameMs && !paused)) return "Waiting for frames.";
   if (shown.states.some((s) => s.has_pose)) return "";
-  if (status && status.log) return "No hand in this frame of the log.";
+  if (status && status.log)
+    return status.log.lost.length === 0 ? "The log holds no states of hands. barehand track makes them from its images."
+      : "No hand in this frame of the log.";
   const lost = shown.states.some((s) => s.status === 3);
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
 }
 
+function hasStates() { return shown !== null && shown.states.length > 0; }
 // Whether the tracker, or the log, says what the hands touch.
 function hasContacts() { return shown !== null && shown.contacts.length > 0; }
 function showContacts() {
@@ -147,11 +150,18 @@ function applyRoom() {
 function theme() { return document.documentElement.dataset.theme; }
 function applyTheme() {
   if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim(), theme());
-  if (timeline.active) timeline.show(timeline.log);
+  if (timeline.active) timeline.show(timeline.log, hasStates());
 }
 function setTheme(name) {
   document.documentElement.dataset.theme = name;
   applyTheme();
+}
+// The page has the system's theme, also when that changes, until the user chooses one.
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const systemTheme = () => setTheme(dark.matches ? "dark" : "light");
+function changeTheme() {
+  dark.onchange = null;
+  setTheme(theme() === "dark" ? "light" : "dark");
 }
 
 function applyState() {
@@ -194,7 +204,7 @@ function onKey(event) {
     c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: toggleContacts, r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
     p: () => set({picture: next(kPictures, state.picture)}),
     h: () => { plots.side = 1 - plots.side; },
-    s: saveScreenshot, v: () => recorder.press(), t: () => setTheme(theme() === "dark" ? "light" : "dark"),
+    s: saveScreenshot, v: () => recorder.press(), t: changeTheme,
     "?": () => byId("shortcuts").showModal(),
     " ": () => timeline.active ? timeline.toggle() : toggle("freeze"),
     ArrowLeft: () => timeline.active && (event.shiftKey ? timeline.lost(-1) : timeline.step(-1)),
@@ -213,11 +223,12 @@ document.querySelectorAll("[data-cloud]").forEach((b) => { b.onclick = () => set
 document.querySelectorAll("[data-picture]").forEach((b) => { b.onclick = () => set({picture: b.dataset.picture}); });
 document.querySelectorAll("[data-plot]").forEach((b) => { b.onclick = () => set({plot: b.dataset.plot}); });
 byId("screenshot").onclick = saveScreenshot;
-byId("theme").onclick = () => setTheme(theme() === "dark" ? "light" : "dark");
+byId("theme").onclick = changeTheme;
 byId("help").onclick = () => byId("shortcuts").showModal();
 window.addEventListener("keydown", onKey);
 
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+dark.onchange = systemTheme;
+systemTheme();
 applyState();
 startScene();
 requestAnimationFrame(loop);

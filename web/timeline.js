@@ -20,7 +20,8 @@ export class Timeline {
   step(frames) { this.send({type: "step", value: frames}); }
   lost(direction) { this.send({type: "lost", value: direction}); }
 
-  show(log) {
+  // `states`: whether the frame that is shown has states of hands.
+  show(log, states) {
     this.log = log;
     byId("timeline").hidden = log === null;
     if (!log) return;
@@ -28,9 +29,12 @@ export class Timeline {
     if (document.activeElement !== byId("position") || log.playing) byId("position").value = log.position;
     byId("play").textContent = log.playing ? "❚❚" : "▶";
     byId("speed").value = String(log.speed);
+    byId("lost_before").disabled = !log.lost.some(([first]) => first < log.position);
+    byId("lost_next").disabled = !log.lost.some(([first]) => first > log.position);
     const lost = log.lost.reduce((sum, [first, last]) => sum + last - first + 1, 0);
+    const hands = lost > 0 ? `${lost} frames without a hand` : states ? "a hand in every frame" : "no states of hands";
     byId("log_time").textContent = `frame ${log.position + 1} of ${log.frames}, ${log.at.toFixed(2)} s of ` +
-      `${log.seconds.toFixed(2)} s; ${lost === 0 ? "a hand in every frame" : `${lost} frames without a hand`}`;
+      `${log.seconds.toFixed(2)} s; ${hands}`;
     this.mark(log);
   }
 

@@ -67,6 +67,9 @@ class Examples(Folder):
         self.check(self.heard(sys.executable, "-B", ANGLES, str(LINES)), "joint_angles")
         lines = subprocess.check_output([sys.executable, "-B", ANGLES, "100", self.log], text=True).splitlines()
         self.assertEqual(len(lines), 10)
+        self.assertEqual(subprocess.check_output([sys.executable, "-B", ANGLES, self.log], text=True).splitlines(), lines)
+        other_order = [sys.executable, "-B", ANGLES, self.log, "3"]
+        self.assertEqual(subprocess.check_output(other_order, text=True).splitlines(), lines[:3])
         self.check(lines * (LINES // 10), "joint_angles")
 
     def test_python_says_what_is_wrong_in_one_line(self):
@@ -74,6 +77,11 @@ class Examples(Folder):
         said = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual((said.returncode, said.stderr), (1, "none.lcmlog: cannot read the log: No such file or directory "
                                                           "(give the name of one log)\n"))
+
+    def test_python_shows_its_usage(self):
+        command = [sys.executable, "-B", ANGLES, self.log, self.log]
+        said = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((said.returncode, said.stderr), (1, "usage: angles.py [LINES] [SOURCE]\n"))
 
     def test_javascript(self):
         self.check(self.heard(NODE, CLIENTS / "javascript/angles.mjs", str(LINES)), "glove22")

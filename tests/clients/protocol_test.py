@@ -2,6 +2,8 @@
 """Tests LCM's datagrams: messages are decoded as they were encoded; missing and damaged ones are counted, and no wrong
 message is delivered."""
 import random
+import subprocess
+import sys
 import unittest
 
 from barehand.counts import Counts
@@ -9,6 +11,14 @@ from barehand.datagrams import LARGEST_MESSAGE, Assembler, encode
 
 ADDRESS, OTHER = ("127.0.0.1", 4000), ("127.0.0.1", 4001)
 LARGE = bytes(range(256)) * 800  # four datagrams
+
+
+class Import(unittest.TestCase):
+    def test_a_python_without_numpy_is_told_what_to_install(self):
+        script = "import sys; sys.modules['numpy'] = None; import barehand"
+        said = subprocess.run([sys.executable, "-B", "-c", script], stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(said.returncode, 1)
+        self.assertRegex(said.stderr.splitlines()[-1], "^ModuleNotFoundError: barehand needs NumPy.*python3-numpy")
 
 
 class Protocol(unittest.TestCase):

@@ -97,6 +97,14 @@ class MeasuringTest(unittest.TestCase):
         self.assertNotIn("barehand sim", again.stdout)
         self.assertEqual(self.results(), results)
 
+        # Another folder for the results leaves those of the documentation as they are.
+        self.write("docs/measured/short.json", "{}")
+        other = os.path.join(self.root, "mine")
+        self.assertEqual(self.measure("short", "--results", other).returncode, 0)
+        self.assertEqual(self.results(), {})
+        with open(os.path.join(other, "short.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file), results)
+
     def test_compares_stated_with_actual_errors_and_reads_what_commands_write(self):
         self.write("tools/measure/claims/other.toml", OTHER_RUNS)
         done = self.measure("other")

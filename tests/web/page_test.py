@@ -59,6 +59,10 @@ def text(element):
     return f"document.getElementById('{element}').textContent"
 
 
+def disabled(element):
+    return f"document.getElementById('{element}').disabled"
+
+
 def hidden(element):
     return f"document.getElementById('{element}').hidden"
 
@@ -161,6 +165,20 @@ class Live(Page):
         self.press("t", "document.documentElement.dataset.theme === 'light'")
         self.wait_for_hand("light")
 
+    def test_the_page_follows_the_system_until_the_user_chooses_a_theme(self):
+        shown = "document.documentElement.dataset.theme === '%s'"
+        self.open_with_hand(self.program)
+        self.browser.theme("dark")
+        self.wait_for(shown % "dark")
+        self.wait_for_hand("dark")
+        self.browser.theme("light")
+        self.wait_for(shown % "light")
+        self.press("t", shown % "dark")
+        self.browser.theme("dark")
+        self.browser.theme("light")
+        self.wait_for("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
+        self.assertTrue(self.browser.value(shown % "dark"))
+
     def test_the_grasp_is_said_in_words(self):
         self.open_with_hand(self.program)
         self.wait_for("/(Grasp: |No grasp)/.test(document.getElementById('hands').textContent)")
@@ -170,9 +188,16 @@ class Live(Page):
         self.open_with_hand(self.program)
         self.wait_for_hand()
         self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 360)
-        outside = ("[...document.querySelectorAll('button, canvas')].filter((e) => e.offsetParent &&"
+        outside = ("[...document.querySelectorAll('%s')].filter((e) => e.offsetParent &&"
                    " (e.getBoundingClientRect().right > 360 || e.getBoundingClientRect().left < 0)).map((e) => e.outerHTML)")
-        self.assertEqual(self.browser.value(outside), [])
+        self.assertEqual(self.browser.value(outside % "button:not(#tools *), canvas"), [])
+        for element in ("help", "latency"):
+            self.wait_for(f"document.getElementById('{element}').offsetParent !== null")
+
+        # The buttons over the view are one row, whose last one can be scrolled to.
+        self.assertLess(self.browser.value("document.getElementById('tools').clientHeight"), 60)
+        self.browser.value("document.getElementById('tools').scrollLeft = 10000")
+        self.assertEqual(self.browser.value(outside % "#screenshot"), [])
 
     def test_the_keyboard_does_what_the_buttons_do(self):
         self.open_with_hand(self.program)
@@ -316,6 +341,7 @@ class Log(Page):
                         ["record", "--source", scene, "--out", take]):
             subprocess.run([BAREHAND, *command], check=True, capture_output=True, timeout=LONG)
         self.program = self.start("view", states, take, "--port", "0")
+        self.take = take
 
     def frame(self):
         return int(re.match(r"frame (\d+) of 60", self.browser.value(text("log_time")))[1])
@@ -345,10 +371,18 @@ class Log(Page):
         self.press("ArrowRight", f"!{self.at(first)}", shift=True)
         self.assertGreater(self.frame(), first + 1)
         self.press("ArrowLeft", self.at(first), shift=True)
+        self.wait_for(f"{disabled('lost_before')} && !{disabled('lost_next')}")
 
         # Other speeds, and playing on.
         self.browser.value("(() => { const s = document.getElementById('speed'); s.value = '4'; s.onchange(); })()")
         self.press(" ", f"{self.at(60)} && {text('play')} === '▶'")
+
+
+    def test_a_log_of_images_alone_says_that_it_holds_no_states(self):
+        self.browser.open(self.start("view", self.take, "--port", "0").url)
+        self.wait_for(f"{text('notice')}.includes('holds no states of hands')")
+        self.wait_for(f"{text('log_time')}.endsWith('no states of hands')")
+        self.assertTrue(self.browser.value(f"{disabled('lost_before')} && {disabled('lost_next')}"))
 
 
 class Calibration(Page):

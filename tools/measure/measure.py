@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Measures claims of the documentation and writes the results to docs/measured, from which pages.py makes the pages.
+"""Measures claims of the documentation and writes the results to docs/measured, from which pages.py makes the pages, or
+to another folder (--results).
   tools/measure/measure.py RECORDINGS OUT CLAIM...             measures tools/measure/claims/CLAIM.toml
   tools/measure/measure.py RECORDINGS OUT --print [CLAIM...]   only prints the commands"""
 import argparse
@@ -57,12 +58,11 @@ def measure(tree, runner, name):
             plots = f"--plots $OUT/runs/{name}.plots" if figure.get("run") == f"{row}.{run}" else ""
             rows[row][run] = runner.measure_run(f"{name}.{row}.{run}", merged(claim, row, run), plots)
 
-    # Store the results, with the version and the machine, before anything else can fail; then copy the plots.
+    # Store the results, with the version and the machine, before anything else can fail.
     if not runner.printing:
         version = subprocess.run([runner.program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
         measured = {"version": version, "date": datetime.date.today().isoformat(), "machine": machine()}
         tree.store(name, {"measured": measured, "rows": rows})
-    draw(runner, name, figure)
 
 
 def draw(runner, name, figure):
@@ -78,6 +78,7 @@ def arguments_of(words):
     parser.add_argument("out", metavar="OUT", help="folder for what is made on the way; what can be used again is made once")
     parser.add_argument("claims", metavar="CLAIM", nargs="*", help="of tools/measure/claims")
     parser.add_argument("--program", default=os.path.join(ROOT, "build/release/src/app/barehand"), help="path of barehand")
+    parser.add_argument("--results", metavar="DIR", help="folder for the results; docs stays as it is")
     parser.add_argument("--print", action="store_true", help="only print the commands, of all claims if none is given")
     arguments = parser.parse_intermixed_args(words)
     if not arguments.claims and not arguments.print:
@@ -88,6 +89,8 @@ def arguments_of(words):
 def main(words):
     arguments = arguments_of(words)
     tree = Tree(ROOT)
+    if arguments.results:
+        tree.results = os.path.abspath(arguments.results)
     if arguments.print:
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # end quietly if the reader of the output, such as head, ends
     try:
@@ -96,6 +99,8 @@ def main(words):
         runner = Runner(tree, arguments.program, arguments.recordings, arguments.out, arguments.print)
         for name in arguments.claims or [name for name in tree.claim_names() if "runs" in tree.claim(name)]:
             measure(tree, runner, name)
+            if not arguments.results:
+                draw(runner, name, tree.claim(name).get("figure", {}))
     except ClaimError as error:
         sys.exit(f"measure.py: {error}")
 

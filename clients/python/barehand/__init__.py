@@ -18,6 +18,16 @@
 
 Units are metres, seconds and radians. The camera frame has x right, y down, z forward. Unknown values are NaN, never 0.
 """
+import sys
+
+try:
+    import numpy  # noqa: F401
+except ModuleNotFoundError as error:
+    if error.name != "numpy":
+        raise
+    raise ModuleNotFoundError(f"barehand needs NumPy, which {sys.executable} lacks: install python3-numpy and use Debian's "
+                              "/usr/bin/python3, or pip install numpy for this one", name="numpy") from None
+
 from .contact_stream import contacts, grasp_name, grasps, objects, touched
 from .counts import Counts
 from .error import Error

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the angles of the index finger, frame by frame, from a running `barehand track` or from a log.
-  angles.py [LINES] [SOURCE]   SOURCE: a log, an MCAP file, or the live page (ws://HOST:PORT); without one, LCM, whose network
-                               LCM_DEFAULT_URL names"""
+  angles.py [LINES] [SOURCE]   in either order. SOURCE: a log, an MCAP file, or the live page (ws://HOST:PORT); without
+                               one, LCM, whose network LCM_DEFAULT_URL names"""
 import itertools
 import math
 import sys
@@ -16,10 +16,14 @@ def text(hand):
                      *(f"{math.degrees(angle):.1f}" for angle in known)])
 
 
-def main(lines=None, source=None):
+def main(*arguments):
+    lines = [int(argument) for argument in arguments if argument.isdecimal()]
+    sources = [argument for argument in arguments if not argument.isdecimal()]
+    if len(lines) > 1 or len(sources) > 1:
+        sys.exit("usage: angles.py [LINES] [SOURCE]")
     try:
-        states = (hand for hands in barehand.hands(source) for hand in (*hands, *hands.without_pose))
-        for hand in itertools.islice(states, int(lines) if lines else None):
+        states = (hand for hands in barehand.hands(*sources) for hand in (*hands, *hands.without_pose))
+        for hand in itertools.islice(states, *lines or [None]):
             print(text(hand), flush=True)
     except barehand.Error as error:
         sys.exit(str(error))
