@@ -17,6 +17,7 @@ namespace barehand {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class Calibrate : public ::testing::Test {
@@ -57,6 +58,20 @@ TEST_F(Calibrate, GivesTheHandASkinOfItsOwn) {
   EXPECT_GT(hand->scanned_skin->vertices.size(), 300u);
 }
 
+TEST_F(Calibrate, CtrlCWhileTheSkinIsMeasuredKeepsTheFittedHand) {
+  const std::string coarse = test::replaced(test::quick_config(), " skin_cell: 0.004\n", " skin_cell: 0.01\n");
+  test::write_text(folder_ / "quick.yaml", coarse);
+  ChildProcess child(calibrate("sim:scan,frames=100,width=320,height=240"));
+  ASSERT_TRUE(child.wait_for("skin and joints: round 1 of")) << child.output();
+  child.signal(SIGINT);
+  EXPECT_EQ(child.finish(), 130);
+  EXPECT_THAT(child.output(),
+              AllOf(HasSubstr("stopped before the skin was measured"), HasSubstr("100 frames tracked")));
+  const auto hand = load_profile(profile_);
+  ASSERT_TRUE(hand) << hand.error().message();
+  EXPECT_EQ(hand->origin, ProfileOrigin::fitted);
+}
+
 /// The scan in the next status message that contains one; null if the connection was closed.
 nlohmann::json next_scan(test::SocketClient& client) {
   while (const auto text = client.text()) {
@@ -83,9 +98,7 @@ TEST_F(Calibrate, CanBeFollowedOnThePage) {
   ASSERT_EQ(child.finish(), 0) << child.output();
 
   // The last status contains the lengths that the profile was saved with.
-  ASSERT_FALSE(phases.empty());
-  EXPECT_EQ(phases.front(), "showing");
-  EXPECT_EQ(phases.back(), "done");
+  EXPECT_THAT(phases, ElementsAre("showing", "measuring", "done"));
   const auto hand = load_profile(profile_);
   ASSERT_TRUE(hand) << hand.error().message();
   ASSERT_EQ(last["segments"].size(), static_cast<std::size_t>(kSegmentCount));

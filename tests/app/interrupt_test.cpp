@@ -121,6 +121,23 @@ TEST_F(InterruptWatcherTest, RestoresTheSignalMask) {
   EXPECT_EQ(sigismember(&before, SIGINT), sigismember(&after, SIGINT));
 }
 
+TEST_F(InterruptWatcherTest, ASignalBetweenTwoWatchersIsHeldForTheSecond) {
+  sigset_t before;
+  pthread_sigmask(SIG_BLOCK, nullptr, &before);
+  hold_interrupts();
+  {
+    const InterruptWatcher first([] { ADD_FAILURE() << "it is gone by then"; });
+  }
+  kill(getpid(), SIGINT);
+  {
+    std::latch called(1);
+    InterruptWatcher second([&] { called.count_down(); });
+    called.wait();
+    EXPECT_EQ(second.signal(), SIGINT);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 using InterruptWatcherDeathTest = InterruptWatcherTest;
 
 TEST_F(InterruptWatcherDeathTest, SecondSignalEndsTheProcess) {

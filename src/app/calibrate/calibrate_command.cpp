@@ -7,9 +7,11 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stop_token>
 
 #include "app/calibrate/scan_page.h"
 #include "app/calibrate/scan_report.h"
+#include "app/shared/interrupt.h"
 #include "app/shared/outputs.h"
 #include "app/shared/run_inputs.h"
 #include "app/shared/standard_streams.h"
@@ -95,9 +97,9 @@ void print(std::FILE* out, const ScanReport& report, const HandProfile& start, c
     std::fprintf(out, "not seen well enough, so close to the initial hand; to measure it, %s\n", sentence.c_str());
 }
 
-/// Scans the skin from the frames that were kept; none if they do not suffice.
-std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads,
-                                   ScanPage& page) {
+/// Scans the skin from the frames that were kept; none if they do not suffice, or `stop` was requested.
+std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, double cell, int threads, ScanPage& page,
+                                   const std::stop_token& stop) {
   // Refuse too few frames, which do not determine a skin.
   const int frames = static_cast<int>(scan.frames.frames().size());
   if (frames < ScanFrames::kFewest) {
@@ -107,15 +109,18 @@ std::optional<HandProfile> scanned(std::FILE* out, const ScanSink::Scan& scan, d
 
   // Scan, and report the progress.
   Workers workers(threads);
-  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, [&](const ScanProgress& progress) {
+  const auto tell = [&](const ScanProgress& progress) {
     const std::string text = formatted("skin and joints: round %d of %d, mean error before it %.2f mm", progress.round,
                                        progress.rounds, progress.mismatch * 1e3);
     std::fprintf(stderr, "%s\n", text.c_str());
     page.measuring("Measuring " + text + ".");
-  });
+  };
+  const auto hand = scan_hand(*scan.profile, cell, scan.frames.frames(), workers, tell, stop);
 
   if (hand)
     std::fprintf(out, "skin and joints from %d frames\n", frames);
+  else if (stop.stop_requested())
+    std::fputs("stopped before the skin was measured; the result is the fitted hand alone\n", stderr);
   else
     std::fputs("the skin cannot be measured in these frames; the result is the fitted hand alone\n", stderr);
   return hand;
@@ -128,7 +133,7 @@ struct Measured {
 
 /// Scans the skin, and saves the scanned profile or, if the scan fails, the fitted one. Error: it cannot be saved.
 Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSink::Scan& scan, double cell,
-                         ScanPage& page) {
+                         ScanPage& page, const std::stop_token& stop) {
   // Save the fitted hand before the scan, which takes a while, unless the output is a pipe, which would get both.
   const bool once = target_of(o.out).direct;
   if (!once)
@@ -136,16 +141,17 @@ Result<Measured> measure(std::FILE* out, const CalibrateOptions& o, const ScanSi
 
   // Scan the skin.
   page.measuring("Measuring the skin and the joints.");
-  const auto hand = scanned(out, scan, cell, o.track.threads, page);
+  const auto hand = scanned(out, scan, cell, o.track.threads, page, stop);
   const Measured result{hand ? *hand : *scan.profile, hand.has_value()};
   if (hand || once)
     if (const auto saved = save_profile(result.hand, o.out); !saved) return tl::unexpected(saved.error());
   return result;
 }
 
-/// Makes a profile from the frames of the run, saves it, and reports the result. Returns the exit code.
+/// Makes a profile from the frames of the run, saves it, and reports the result. `stop` ends the measuring early, and
+/// the fitted hand is the result. Returns the exit code.
 int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, const HandProfile& start,
-             const ScanSink::Scan& scan, const TrackOutcome& tracked) {
+             const ScanSink::Scan& scan, const TrackOutcome& tracked, const std::stop_token& stop) {
   // Show on the page what was scanned.
   ViewState state;
   state.source = o.track.source;
@@ -162,7 +168,7 @@ int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, co
                   kExitFailure);
   }
 
-  const auto result = measure(out, o, scan, config.tracker.skin_cell, page);
+  const auto result = measure(out, o, scan, config.tracker.skin_cell, page, stop);
   if (!result) {
     page.done("The profile is not saved: " + result.error().message(), nullptr);
     return failed("calibrate", result.error(), kExitFailure);
@@ -170,8 +176,10 @@ int conclude(std::FILE* out, const CalibrateOptions& o, const Config& config, co
 
   // Report the measured profile.
   print(out, scan.report, start, result->hand);
-  page.done(formatted("Saved in %s%s. The hand is %.0f mm long, %.0f mm before.", o.out.c_str(),
-                      result->skin ? ", with a skin of its own" : "; the skin could not be measured",
+  const char* skin = result->skin            ? ", with a skin of its own"
+                     : stop.stop_requested() ? "; stopped before the skin was measured"
+                                             : "; the skin could not be measured";
+  page.done(formatted("Saved in %s%s. The hand is %.0f mm long, %.0f mm before.", o.out.c_str(), skin,
                       result->hand.hand_length() * 1e3, start.hand_length() * 1e3),
             &result->hand);
   return tracked.stopped ? static_cast<int>(kExitOk) : tracked.exit_code;
@@ -205,9 +213,16 @@ int run(const CalibrateOptions& o) {
   // Let the page show what has been measured so far.
   const HandProfile& start = *hands->front().profile;
   const auto shown = [&] { return view_scan(kHowTo, scan.report, start, scan.profile ? *scan.profile : start); };
-  const auto tracked = track(track_options, *config, {}, std::move(sinks), shown);
+  hold_interrupts();
+  auto tracked = track(track_options, *config, {}, std::move(sinks), shown);
   if (!tracked) return failed("calibrate", tracked.error().error, tracked.error().exit_code);
-  return conclude(out, o, *config, start, scan, *tracked);
+
+  // Measure, until a signal comes. It is heard until the page, too, has its last words.
+  std::stop_source stop;
+  const InterruptWatcher interrupt([&stop] { stop.request_stop(); });
+  const int exit_code = conclude(out, o, *config, start, scan, *tracked, stop.get_token());
+  tracked->page.reset();
+  return exit_code == kExitOk && interrupt.signal() != 0 ? static_cast<int>(kExitInterrupted) : exit_code;
 }
 
 }  // namespace

@@ -28,18 +28,20 @@ void ScanPage::done(const std::string& what, const HandProfile* result) {
     segment.after = result ? result->segments[s].length : segment.before;
   }
   show(ViewScan::Phase::done, what);
-  if (!server_) return;
-  server_->set_farewell({Farewell::kDone, "The calibration is done and the program has ended."});
-  constexpr std::chrono::seconds kPatience{1};
-  server_->flush(kPatience);
+  if (server_) server_->set_farewell({Farewell::kDone, "The calibration is done and the program has ended."});
 }
 
 void ScanPage::show(ViewScan::Phase phase, const std::string& progress) {
   if (!server_) return;
+  const bool begins = phase != state_.scan->phase;
   state_.scan->phase = phase;
   state_.scan->progress = progress;
   state_.clients = server_->clients();
   server_->show_status(status_json(state_));
+
+  // A newer status replaces one that waits, so the first one of a phase is waited for: no browser misses a short phase.
+  constexpr std::chrono::seconds kPatience{1};
+  if (begins) server_->flush(kPatience);
 }
 
 }  // namespace barehand

@@ -20,6 +20,7 @@ class ScanPage {
   /// `server`: null if there is no page; otherwise it must outlive this object. `state`: state of the page at the last
   /// frame, with its scan.
   ScanPage(ViewServer* server, ViewState state) : server_(server), state_(std::move(state)) {}
+  /// Shows how the measuring goes. The first call returns when every browser that reads has received it.
   void measuring(const std::string& progress) { show(ViewScan::Phase::measuring, progress); }
   /// Shows the end of the scan; when it returns, every browser that reads has received it. `result`: the measured
   /// profile; null: there is none.

@@ -13,17 +13,29 @@ bool is_ignored(int number) {
   return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+/// The signals that stop the program. A SIGHUP that is ignored stays ignored.
+sigset_t stopping_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
+  return signals;
+}
+
 }  // namespace
+
+void hold_interrupts() {
+  const sigset_t held = stopping_signals();
+  pthread_sigmask(SIG_BLOCK, &held, nullptr);
+}
 
 InterruptWatcher::InterruptWatcher(std::function<void()> on_signal, std::function<void()> on_hangup)
     : on_signal_(std::move(on_signal)),
       on_hangup_(std::move(on_hangup)),
       in_background_(is_ignored(SIGINT)),
+      watched_(stopping_signals()),
       hangup_stops_(!on_hangup_) {
-  sigemptyset(&watched_);
-  sigaddset(&watched_, SIGINT);
-  sigaddset(&watched_, SIGTERM);
-  if (!is_ignored(SIGHUP)) sigaddset(&watched_, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &watched_, &before_);
   thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }

@@ -41,4 +41,8 @@ class InterruptWatcher {
   std::jthread thread_;
 };
 
+/// Holds back the signals of InterruptWatcher for the rest of the process, so that only watchers receive them: one that
+/// arrives between two watchers goes to the second. Call it before other threads start.
+void hold_interrupts();
+
 }  // namespace barehand
