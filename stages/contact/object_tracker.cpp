@@ -16,8 +16,8 @@ constexpr double kOverlap = 0.4;
 constexpr double kGone = 0.25;
 // Two objects are the same one if this fraction of a component of one lies on the model of the other.
 constexpr double kSame = 0.7;
-// Times after which an object that is not seen any more is forgotten [us]: kForgotten if it was not held,
-// kForgottenHeld if it was.
+// Times after which an object that is not seen any more is forgotten [us]: kForgottenHeld if it was held, or if a hand
+// touches it, whose fingers may cover it; kForgotten otherwise.
 constexpr std::int64_t kForgotten = 500'000, kForgottenHeld = 3'000'000;
 constexpr double kLongest = 0.25;  // longest time between two frames from which a velocity is computed [s]
 
@@ -41,7 +41,7 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
   last_ = utime;
   for (ObjectTrack& track : tracks_) track.update(utime, std::abs(elapsed) < kLongest ? elapsed : 0, estimates, space);
   std::erase_if(tracks_, [&](const ObjectTrack& track) {
-    return std::abs(utime - track.seen) > (track.state.held ? kForgottenHeld : kForgotten);
+    return std::abs(utime - track.seen) > (track.state.held || track.touches > 0 ? kForgottenHeld : kForgotten);
   });
 
   // Output the objects that are seen or held, and the hidden points of their models.

@@ -54,6 +54,21 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
   }
 }
 
+/// The pixel that stands for a cell: of those that show an object the one with the middle depth, so that things thinner
+/// than a cell are seen, too; the first one if none does.
+std::array<int, 2> SurfaceCells::pixel_of(const HandObservation& seen, int c, int r) {
+  const int u0 = c * step_, v0 = r * step_;
+  block_.clear();
+  for (int v = v0; v < v0 + step_; ++v)
+    for (int u = u0; u < u0 + step_; ++u)
+      if (seen.label.at(u, v) == PixelLabel::object && seen.depth.at(u, v) > 0)
+        block_.emplace_back(seen.depth.at(u, v), std::array{u, v});
+  if (block_.empty()) return {u0, v0};
+  const auto middle = block_.begin() + static_cast<std::ptrdiff_t>(block_.size() / 2);
+  std::nth_element(block_.begin(), middle, block_.end());
+  return middle->second;
+}
+
 /// Copies the position of every cell that may belong to an object, and marks those that are labelled as object.
 void SurfaceCells::fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
                               const std::function<bool(const Vector3f&)>& on_skin) {
@@ -70,7 +85,7 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
 
   for (int r = 0; r < place_.height(); ++r)
     for (int c = 0; c < place_.width(); ++c) {
-      const int u = c * step_, v = r * step_;
+      const auto [u, v] = pixel_of(seen, c, r);
       const PixelLabel label = seen.label.at(u, v);
       if (label == PixelLabel::unknown) continue;
       const Vector3f p = seen.point(u, v);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ class SurfaceCells {
  private:
   void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
                   const std::function<bool(const Eigen::Vector3f&)>& on_skin);
+  std::array<int, 2> pixel_of(const HandObservation& seen, int c, int r);
   void fit_planes();
   void grow(std::vector<bool>& open);
   bool fit(int c, int r, SurfacePoint& point) const;
@@ -35,6 +37,7 @@ class SurfaceCells {
   Image<std::uint8_t> beyond_;              // 1: a surface that is too far from the hand to be observed
   Image<std::int32_t> component_;           // component of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
+  std::vector<std::pair<float, std::array<int, 2>>> block_;  // depth and pixel of what a cell shows of an object
 };
 
 }  // namespace barehand

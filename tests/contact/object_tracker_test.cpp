@@ -141,6 +141,20 @@ TEST_F(Objects, AnotherPlaceOrALongAbsenceIsAnotherObject) {
   EXPECT_NE(frame()[0].id, second);
 }
 
+TEST_F(Objects, WhatAHandTouchesIsRememberedWhileFingersCoverIt) {
+  piece({0, 0, 0.5f});
+  const std::int32_t id = frame()[0].id;
+  HandContacts contacts;
+  contacts.object[segment_of(1, 2)].state = ContactState::touching;
+  contacts.object[segment_of(1, 2)].partner = id;
+  for (int k = 0; k < 30; ++k) {
+    tracker_.note_touches({&contacts, 1});
+    frame();
+  }
+  piece({0, 0, 0.5f});
+  EXPECT_EQ(frame()[0].id, id);
+}
+
 TEST_F(Objects, SpecksAreNone) {
   points_.assign(4, {{0, 0, 0.5f}, {0, 0, -1}, 0});
   open_ = {false};
