@@ -1,5 +1,5 @@
 #include "fuzz/check.h"
-#include "io/web/foxglove_request.h"
+#include "io/foxglove/foxglove_request.h"
 
 /// Input: a message that a viewer such as Foxglove sends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -279,12 +279,5 @@ TEST_F(Return, OfAHandExplainedSomewhatWorseIsNotBelievedWhileNoFrameConfirmsIt)
   for (int i = 0; i < 4; ++i) EXPECT_EQ(status_at(*larger(1.03, (i % 2 ? 90 : -90) * kDegree)), TrackStatus::lost) << i;
 }
 
-TEST_F(Return, OfSomethingLessLikeTheHandIsNotBelievedUntilItIsForgotten) {
-  const HandObservationPtr other = larger(1.1);
-  int frames = 0;
-  while (status_at(*other) != TrackStatus::tracking) ASSERT_LT(++frames, 60);
-  EXPECT_GT(frames, 20);
-}
-
 }  // namespace
 }  // namespace barehand

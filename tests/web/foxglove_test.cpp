@@ -1,4 +1,4 @@
-#include "io/web/foxglove_client.h"
+#include "io/foxglove/foxglove_client.h"
 
 #include <gmock/gmock.h>
 

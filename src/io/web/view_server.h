@@ -10,8 +10,8 @@
 
 #include "core/clock.h"
 #include "core/statistics.h"
+#include "io/foxglove/foxglove_clients.h"
 #include "io/lcm/log_recorder.h"
-#include "io/web/foxglove_clients.h"
 #include "io/web/view_client.h"
 
 namespace barehand {

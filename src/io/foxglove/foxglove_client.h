@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/foxglove/foxglove_request.h"
 #include "io/ros/ros_topics.h"
-#include "io/web/foxglove_request.h"
 #include "io/web/frame_client.h"
 
 namespace barehand {

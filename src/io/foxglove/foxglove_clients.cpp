@@ -1,5 +1,5 @@
 // The connected Foxglove viewers.
-#include "io/web/foxglove_clients.h"
+#include "io/foxglove/foxglove_clients.h"
 
 #include <algorithm>
 

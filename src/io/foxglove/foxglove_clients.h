@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "io/web/foxglove_client.h"
+#include "io/foxglove/foxglove_client.h"
 
 namespace barehand {
 

@@ -1,5 +1,5 @@
 // Parses the requests of Foxglove viewers.
-#include "io/web/foxglove_request.h"
+#include "io/foxglove/foxglove_request.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
