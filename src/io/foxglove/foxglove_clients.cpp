@@ -8,46 +8,20 @@
 namespace barehand {
 
 std::unique_ptr<WebPeer> FoxgloveClients::connect(WebSocket socket) {
-  auto client = std::make_unique<FoxgloveClient>(socket, [this](const FrameClient& gone) { forget(gone); });
-  const std::lock_guard lock(mutex_);
-  clients_.insert(client.get());
-  count_ = static_cast<int>(clients_.size());
-  if (frame_) client->post(frame_);
+  auto client = std::make_unique<FoxgloveClient>(socket, [this](FrameClient& gone) { clients_.forget(gone); });
+  clients_.add(*client);
   return client;
 }
 
-void FoxgloveClients::forget(const FrameClient& client) {
-  const QueueHealth last = closed(client.health());
-  const std::lock_guard lock(mutex_);
-  add_counts(last, gone_);
-  clients_.erase(const_cast<FrameClient*>(&client));
-  count_ = static_cast<int>(clients_.size());
-  if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
-}
-
 void FoxgloveClients::show(const ViewFramePtr& frame) {
-  const std::lock_guard lock(mutex_);
-  for (std::size_t side = 0; side < profiles_.size(); ++side)
-    if (const ViewSkinPtr& skin = frame->content().skins[side]) profiles_[side] = skin->profile();
-  if (!clients_.empty()) frame_ = frame;
-  for (FrameClient* client : clients_) client->post(frame);
+  for (const ViewSkinPtr& skin : frame->content().skins)
+    if (skin) set_profile(skin->profile());
+  if (count() > 0) clients_.show(frame);
 }
 
 void FoxgloveClients::set_profile(std::shared_ptr<const HandProfile> profile) {
   const std::lock_guard lock(mutex_);
   profiles_[static_cast<std::size_t>(profile->handedness)] = std::move(profile);
-}
-
-void FoxgloveClients::add_health(QueueHealth& all) const {
-  const std::lock_guard lock(mutex_);
-  all.capacity += clients_.size();
-  add_counts(gone_, all);
-  for (const FrameClient* client : clients_) add_counts(client->health(), all);
-}
-
-void FoxgloveClients::end(const Farewell& farewell) {
-  const std::lock_guard lock(mutex_);
-  for (FrameClient* client : clients_) client->end(farewell);
 }
 
 Result<WebFile> FoxgloveClients::urdf(const std::string& path, const std::string& base) const {

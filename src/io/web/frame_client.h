@@ -23,7 +23,7 @@ using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 class FrameClient : public WebPeer {
  public:
   /// Called on a thread of the server when the client is gone.
-  using OnGone = std::function<void(const FrameClient&)>;
+  using OnGone = std::function<void(FrameClient&)>;
 
   void start() final;
   bool receive(std::string_view text) final;

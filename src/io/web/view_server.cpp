@@ -1,7 +1,6 @@
 // Serves the live page and its data, and executes the users' requests.
 #include "io/web/view_server.h"
 
-#include <algorithm>
 #include <thread>
 
 #include "io/web/web_page.h"
@@ -49,11 +48,7 @@ void wait_until(const std::function<bool()>& done, std::chrono::milliseconds pat
 
 ViewServer::~ViewServer() {
   if (!web_) return;
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    for (FrameClient* client : clients_) client->end(farewell_);
-  }
+  pages_.end(farewell_);
   foxglove_.end(farewell_);
 
   // A connection that the server cut off could lose what the client has not read yet, so wait for the clients.
@@ -62,17 +57,12 @@ ViewServer::~ViewServer() {
 }
 
 std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
-  const std::lock_guard lock(mutex_);
   ViewClient::Handlers handlers;
   handlers.play = on_command_;
   handlers.record = [this, number = ++last_client_](const RecordCommand& command) { return record(command, number); };
-  handlers.gone = [this](const FrameClient& gone) { forget(gone); };
+  handlers.gone = [this](FrameClient& gone) { pages_.forget(gone); };
   auto client = std::make_unique<ViewClient>(socket, clock_, std::move(handlers));
-  clients_.insert(client.get());
-  clients_count_ = static_cast<int>(clients_.size());
-  if (status_) client->post_status(status_);
-  if (frame_) client->post(frame_);
-  if (ended_) client->end(farewell_);
+  pages_.add(*client);
   return client;
 }
 
@@ -84,44 +74,24 @@ Result<void> ViewServer::record(const RecordCommand& command, int client) {
   return {};
 }
 
-void ViewServer::forget(const FrameClient& client) {
-  const QueueHealth last = closed(client.health());
-  const std::lock_guard lock(mutex_);
-  add_counts(last, gone_);
-  clients_.erase(const_cast<FrameClient*>(&client));
-  clients_count_ = static_cast<int>(clients_.size());
-  if (clients_.empty()) frame_ = nullptr;  // it would be outdated when the next client connects
-}
-
 void ViewServer::show(const ViewFramePtr& frame) {
   foxglove_.show(frame);
-  const std::lock_guard lock(mutex_);
-  frame_ = frame;
-  for (FrameClient* client : clients_) client->post(frame);
+  pages_.show(frame);
 }
 
 void ViewServer::show_status(std::string json) {
-  const auto status = std::make_shared<const std::string>(std::move(json));
-  const std::lock_guard lock(mutex_);
-  status_ = status;
-  for (FrameClient* client : clients_) client->post_status(status);
+  pages_.show_status(std::make_shared<const std::string>(std::move(json)));
 }
 
 void ViewServer::flush(std::chrono::milliseconds patience) const {
-  const auto all_told = [&] {
-    const std::lock_guard lock(mutex_);
-    return std::ranges::all_of(clients_, [](const FrameClient* client) { return client->is_told(); });
-  };
-  wait_until(all_told, patience);
+  wait_until([&] { return pages_.are_told(); }, patience);
 }
 
 QueueHealth ViewServer::health() const {
-  const std::lock_guard lock(mutex_);
-  QueueHealth all = gone_;
+  QueueHealth all;
   all.name = "view";
-  all.capacity = clients_.size();
+  pages_.add_health(all);
   foxglove_.add_health(all);
-  for (const FrameClient* client : clients_) add_counts(client->health(), all);
   return all;
 }
 

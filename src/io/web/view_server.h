@@ -4,14 +4,13 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <set>
 #include <string>
 
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "io/foxglove/foxglove_clients.h"
 #include "io/lcm/log_recorder.h"
+#include "io/web/frame_clients.h"
 #include "io/web/view_client.h"
 
 namespace barehand {
@@ -39,7 +38,7 @@ class ViewServer {
   void set_profile(std::shared_ptr<const HandProfile> profile) { foxglove_.set_profile(std::move(profile)); }
   /// Whether a client is connected; if none is, no frame need be made for show().
   bool has_clients() const { return clients() > 0; }
-  int clients() const { return clients_count_ + foxglove_.count(); }
+  int clients() const { return pages_.count() + foxglove_.count(); }
   /// Sends the newest frame to all clients. May be called on any thread.
   void show(const ViewFramePtr& frame);
   /// Sends a status (JSON) to all clients and, until the next status, to those that connect later. May be called on any
@@ -58,22 +57,13 @@ class ViewServer {
       : on_command_(options.on_command), recorder_(options.recorder), clock_(clock) {}
   std::unique_ptr<WebPeer> connect(WebSocket socket);
   Result<void> record(const RecordCommand& command, int client);
-  void forget(const FrameClient& client);
 
   const std::function<void(const PlayerCommand&)> on_command_;
   LogRecorder* const recorder_;
   const Clock& clock_;
-  std::atomic<int> clients_count_ = 0;
-
-  mutable std::mutex mutex_;  // protects the members down to the blank line
-  std::set<FrameClient*> clients_;
-  int last_client_ = 0;  // number of the client that connected last
-  QueueHealth gone_;     // counts of the clients that have left
-  ViewFramePtr frame_;
-  StatusText status_;
-
-  bool ended_ = false;  // clients that connect now get the farewell, too
+  std::atomic<int> last_client_ = 0;  // number of the page that connected last
   Farewell farewell_;
+  FrameClients pages_;
   FoxgloveClients foxglove_;
   std::unique_ptr<WebServer> web_;  // declared last, so destroyed first: it disconnects all clients
 };
