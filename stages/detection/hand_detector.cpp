@@ -70,12 +70,12 @@ void HandDetector::add_palms(const RgbdFrame& frame, const DepthView& view, cons
   }
 }
 
-Result<void> HandDetector::find_palms(const RgbdFrame& frame, Detection& out) {
+Result<void> HandDetector::find_palms(const RgbdFrame& frame, Workers& workers, Detection& out) {
   palms_.clear();
   for (const DepthView& view : frame_views(frame.camera)) {
     sample_depth(frame, view, depth_);
     fill_full(depth_, input_);
-    const auto output = full_.run(input_);
+    const auto output = full_.run(input_, workers);
     if (!output) return tl::unexpected(output.error());
     read_labels(*output, view, false, out.frame_labels.emplace_back());
     add_palms(frame, view, *output);
@@ -90,7 +90,7 @@ bool HandDetector::is_new(const Eigen::Vector3d& centre, const Detection& out) {
 
 Result<void> HandDetector::examine(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers) {
   workers.for_each_index(static_cast<int>(places.size()),
-                         [&](int i) { found_[i] = examiners_[i].examine(frame, places[i]); });
+                         [&](int i) { found_[i] = examiners_[i].examine(frame, places[i], workers); });
   for (std::size_t i = 0; i < places.size(); ++i)
     if (!found_[i]) return tl::unexpected(found_[i].error());
   return {};
@@ -117,7 +117,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
                                        std::span<const ExpectedHand> tracked) {
   Detection out;
   out.whole_frame = true;
-  if (const auto found = find_palms(frame, out); !found) return tl::unexpected(found.error());
+  if (const auto found = find_palms(frame, workers, out); !found) return tl::unexpected(found.error());
 
   // Leave out palms that earlier searches found to be unlikely, except near a tracked hand.
   known_.begin_search();

@@ -45,7 +45,7 @@ class HandDetector {
     double probability;
   };
   HandDetector(Network full, std::vector<WindowExaminer> examiners, std::string version, const DetectionParams& params);
-  Result<void> find_palms(const RgbdFrame& frame, Detection& out);
+  Result<void> find_palms(const RgbdFrame& frame, Workers& workers, Detection& out);
   void add_palms(const RgbdFrame& frame, const DepthView& view, const NetworkOutput& output);
   /// Chooses up to kAtOnce of the next palms, which are certainly not of the same hand.
   void choose_palms(const Detection& out);

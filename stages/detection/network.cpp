@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/parallel/parallel.h"
 #include "observe/detection.h"
 #include "stages/detection/network_graph.h"
 #include "stages/detection/weights.h"
@@ -21,6 +22,10 @@ namespace {
 constexpr int kBlock = 8;
 constexpr auto kBlocked = dnnl::memory::format_tag::nChw8c;
 constexpr auto kFloat = dnnl::memory::data_type::f32;
+
+// A convolution with at least this many multiplications is computed in two halves of its output channels, which two
+// cores may compute at once. A smaller one takes less time than waking the other core is worth.
+constexpr double kLeastToShare = 4e6;
 
 int blocks(int channels) { return (channels + kBlock - 1) / kBlock; }
 
@@ -57,7 +62,7 @@ void use_one_thread() { omp_set_num_threads(1); }
 
 struct Network::Net {
   explicit Net(NetworkGraph graph);
-  void run();
+  void run(Workers& workers);
   /// An output in planes, one after the other.
   void read(const std::string& output, std::vector<float>& planes) const;
   /// An output that is a single number.
@@ -65,18 +70,23 @@ struct Network::Net {
 
   NetworkGraph graph;
   dnnl::engine engine{dnnl::engine::kind::cpu, 0};
-  dnnl::stream stream{engine};
   std::vector<dnnl::memory> values;  // the input in planes, the others in blocks
 
-  struct Convolution {
+  // Some of the output channels of one convolution.
+  struct Part {
     dnnl::convolution_forward primitive;
     std::unordered_map<int, dnnl::memory> arguments;
+    dnnl::stream stream;
   };
-  std::vector<Convolution> convolutions;  // in the order of the graph's steps
-  std::vector<float> map, label;          // the outputs of the last run
+  std::vector<std::vector<Part>> convolutions;  // in the order of the graph's steps
+  std::vector<float> map, label;                // the outputs of the last run
 
  private:
-  Convolution prepare(const NetworkGraph::Convolution& step);
+  std::vector<Part> prepare(const NetworkGraph::Convolution& step);
+  // The output channels from `first` on, `count` of them; `first` must begin a block.
+  Part prepare(const NetworkGraph::Convolution& step, int first, int count);
+  // The channels of a value from `first` on, in the same memory.
+  dnnl::memory channels(int value, int first, int count);
   void join(const NetworkGraph::Join& step);
   float* data(int value) const { return static_cast<float*>(values[value].get_data_handle()); }
 };
@@ -97,43 +107,65 @@ Network::Net::Net(NetworkGraph read) : graph(std::move(read)) {
     }
 }
 
-Network::Net::Convolution Network::Net::prepare(const NetworkGraph::Convolution& step) {
+std::vector<Network::Net::Part> Network::Net::prepare(const NetworkGraph::Convolution& step) {
+  const NetworkGraph::Shape& out = graph.values[step.output];
+  const double work = static_cast<double>(step.weights.size()) * out.height * out.width;
+  const int half = work < kLeastToShare ? 0 : kBlock * (blocks(out.channels) / 2);
+  std::vector<Part> parts;
+  if (half > 0) parts.push_back(prepare(step, 0, half));
+  parts.push_back(prepare(step, half, out.channels - half));
+  return parts;
+}
+
+Network::Net::Part Network::Net::prepare(const NetworkGraph::Convolution& step, int first, int count) {
   using Memory = dnnl::memory;
-  const Memory::dim inputs = graph.values[step.input].channels, outputs = graph.values[step.output].channels;
-  const Memory::dims sizes = {outputs, inputs, step.kernel, step.kernel}, stride = {step.stride, step.stride},
+  const Memory::dim inputs = graph.values[step.input].channels;
+  const Memory::dims sizes = {count, inputs, step.kernel, step.kernel}, stride = {step.stride, step.stride},
                      pad = {step.pad, step.pad};
+  Memory output = channels(step.output, first, count), addend;
 
   // The addend and the positive part are computed along with the convolution.
   dnnl::post_ops after;
-  if (step.addend >= 0) after.append_binary(dnnl::algorithm::binary_add, values[step.addend].get_desc());
+  if (step.addend >= 0) {
+    addend = channels(step.addend, first, count);
+    after.append_binary(dnnl::algorithm::binary_add, addend.get_desc());
+  }
   if (step.relu) after.append_eltwise(1, dnnl::algorithm::eltwise_relu, 0, 0);
   dnnl::primitive_attr attributes;
   attributes.set_post_ops(after);
 
   // Describe the convolution, and leave the order of the weights open.
-  const Memory::desc bias({outputs}, kFloat, Memory::format_tag::x);
+  const Memory::desc bias({count}, kFloat, Memory::format_tag::x);
   const dnnl::convolution_forward::desc wanted(
       dnnl::prop_kind::forward_inference, dnnl::algorithm::convolution_direct, values[step.input].get_desc(),
-      Memory::desc(sizes, kFloat, Memory::format_tag::any), bias, values[step.output].get_desc(), stride, pad, pad);
+      Memory::desc(sizes, kFloat, Memory::format_tag::any), bias, output.get_desc(), stride, pad, pad);
   const dnnl::convolution_forward::primitive_desc chosen(wanted, attributes, engine);
 
   // The library chooses the order of the weights.
+  dnnl::stream stream(engine);
   Memory weights(chosen.weights_desc(), engine), biases(bias, engine);
   Memory ordered({sizes, kFloat, Memory::format_tag::oihw}, engine);
-  std::ranges::copy(step.weights, static_cast<float*>(ordered.get_data_handle()));
-  std::ranges::copy(step.bias, static_cast<float*>(biases.get_data_handle()));
+  const std::size_t of_channel = static_cast<std::size_t>(inputs) * step.kernel * step.kernel;
+  std::copy_n(step.weights.begin() + first * of_channel, count * of_channel,
+              static_cast<float*>(ordered.get_data_handle()));
+  std::copy_n(step.bias.begin() + first, count, static_cast<float*>(biases.get_data_handle()));
   dnnl::reorder(ordered, weights).execute(stream, ordered, weights);
   stream.wait();
 
   // Bind the arguments of the convolution.
-  Convolution result{dnnl::convolution_forward(chosen),
-                     {{DNNL_ARG_SRC, values[step.input]},
-                      {DNNL_ARG_WEIGHTS, weights},
-                      {DNNL_ARG_BIAS, biases},
-                      {DNNL_ARG_DST, values[step.output]}}};
-  if (step.addend >= 0)
-    result.arguments.emplace(DNNL_ARG_ATTR_MULTIPLE_POST_OP(0) | DNNL_ARG_SRC_1, values[step.addend]);
-  return result;
+  Part part{dnnl::convolution_forward(chosen),
+            {{DNNL_ARG_SRC, values[step.input]},
+             {DNNL_ARG_WEIGHTS, weights},
+             {DNNL_ARG_BIAS, biases},
+             {DNNL_ARG_DST, output}},
+            stream};
+  if (step.addend >= 0) part.arguments.emplace(DNNL_ARG_ATTR_MULTIPLE_POST_OP(0) | DNNL_ARG_SRC_1, addend);
+  return part;
+}
+
+dnnl::memory Network::Net::channels(int value, int first, int count) {
+  const auto& [all, height, width] = graph.values[value];
+  return {{{1, count, height, width}, kFloat, kBlocked}, engine, data(value) + first * height * width};
 }
 
 void Network::Net::join(const NetworkGraph::Join& step) {
@@ -151,18 +183,20 @@ void Network::Net::join(const NetworkGraph::Join& step) {
   }
 }
 
-void Network::Net::run() {
+void Network::Net::run(Workers& workers) {
   auto convolution = convolutions.begin();
   for (const auto& step : graph.steps) {
     if (const auto* joined = std::get_if<NetworkGraph::Join>(&step)) {
-      stream.wait();
       join(*joined);
-    } else {
-      convolution->primitive.execute(stream, convolution->arguments);
-      ++convolution;
+      continue;
     }
+    std::vector<Part>& parts = *convolution++;
+    workers.for_each_index(static_cast<int>(parts.size()), [&](int i) {
+      use_one_thread();
+      parts[i].primitive.execute(parts[i].stream, parts[i].arguments);
+      parts[i].stream.wait();
+    });
   }
-  stream.wait();
 }
 
 void Network::Net::read(const std::string& output, std::vector<float>& planes) const {
@@ -212,19 +246,19 @@ Result<Network> Network::load(const std::string& bytes, const std::string& name,
     NetworkInput nothing;
     nothing.depth.reset(shape.width, shape.height, 1.f);
     nothing.valid.reset(shape.width, shape.height, 0.f);
-    if (const auto output = network.run(nothing); !output) return tl::unexpected(output.error());
+    Workers alone(1);
+    if (const auto output = network.run(nothing, alone); !output) return tl::unexpected(output.error());
     return network;
   } catch (const std::exception& error) {
     return fail(std::string("is a network that cannot be run: ") + error.what(), name, kNetworkRemedy);
   }
 }
 
-Result<NetworkOutput> Network::run(const NetworkInput& input) {
+Result<NetworkOutput> Network::run(const NetworkInput& input, Workers& workers) {
   float* in = static_cast<float*>(net_->values[0].get_data_handle());
   std::copy_n(input.valid.data(), input.valid.size(), std::copy_n(input.depth.data(), input.depth.size(), in));
   try {
-    use_one_thread();
-    net_->run();
+    net_->run(workers);
   } catch (const std::exception& error) {
     return fail(std::string("cannot be run: ") + error.what(), name_, kNetworkRemedy);
   }

@@ -9,6 +9,8 @@
 
 namespace barehand {
 
+class Workers;
+
 // A detection network that oneDNN runs.
 
 /// The input of a network: a part of a depth image in two channels of equal size.
@@ -34,7 +36,7 @@ struct NetworkShape {
   int width = 0, height = 0, maps = 0;
 };
 
-/// One network with its weights, run by oneDNN on the calling thread alone. Not thread-safe.
+/// One network with its weights, run by oneDNN. Not thread-safe.
 class Network {
  public:
   /// Loads a network from the bytes of an ONNX file; `name` is for error messages. Errors: those of read_onnx(); it
@@ -44,8 +46,9 @@ class Network {
   Network& operator=(Network&&) noexcept;
   ~Network();
 
-  /// Error: the network returns values that are not finite.
-  Result<NetworkOutput> run(const NetworkInput& input);
+  /// Runs on the calling thread and, for the large convolutions, on one other worker; the result does not depend on
+  /// their number. Error: the network returns values that are not finite.
+  Result<NetworkOutput> run(const NetworkInput& input, Workers& workers);
 
  private:
   struct Net;

@@ -28,12 +28,12 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
 /// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
 /// into a right one; the network was trained with right hands.
 Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
-                                                           bool mirrored) {
+                                                           bool mirrored, Workers& workers) {
   // Run the network on the window.
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
-  const auto output = crop_.run(input_);
+  const auto output = crop_.run(input_, workers);
   if (!output) return tl::unexpected(output.error());
 
   // Read the joints, the side and the labels from its output.
@@ -50,9 +50,10 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
 
 /// Runs the second network at a place, and once more if the hand is off the window's centre or of the other side than
 /// the window was mirrored for.
-Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place) {
+Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place,
+                                                            Workers& workers) {
   bool mirrored = place.side == Handedness::left;
-  auto window = run_network(frame, place.centre, mirrored);
+  auto window = run_network(frame, place.centre, mirrored, workers);
   if (!window) return tl::unexpected(window.error());
 
   // Examine a second window if the hand is off the centre, or if it is of the other side.
@@ -61,14 +62,14 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   if (aside || other_side()) {
     if (window->hand.centre.z() <= 0) return std::nullopt;
     mirrored = mirrored != other_side();
-    window = run_network(frame, window->hand.centre, mirrored);
+    window = run_network(frame, window->hand.centre, mirrored, workers);
     if (!window) return tl::unexpected(window.error());
   }
 
   // If the network finds again that the hand is of the side opposite to the mirroring, run it also on the window with
   // the other mirroring. The average of the log odds decides the side, and the window for that side gives the joints.
   if (other_side() && window->hand.centre.z() > 0) {
-    auto other = run_network(frame, window->hand.centre, !mirrored);
+    auto other = run_network(frame, window->hand.centre, !mirrored, workers);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
     if ((right < 0) != mirrored) *window = std::move(*other);

@@ -21,7 +21,7 @@ class WindowExaminer {
   explicit WindowExaminer(Network crop) : crop_(std::move(crop)) {}
 
   /// Empty if there is no hand. Error: the network returns values that are not finite.
-  Result<std::optional<DetectedHand>> examine(const RgbdFrame& frame, const ExpectedHand& place);
+  Result<std::optional<DetectedHand>> examine(const RgbdFrame& frame, const ExpectedHand& place, Workers& workers);
 
  private:
   /// The result of the network for one window.
@@ -29,7 +29,7 @@ class WindowExaminer {
     DetectedHand hand;
     double hand_area = 0;  // area of the pixels labelled as hand, projected onto a plane facing the camera [m^2]
   };
-  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, bool mirrored);
+  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, bool mirrored, Workers& workers);
 
   Network crop_;
   Image<float> depth_;  // scratch: the depth image, resampled for the current window
