@@ -12,7 +12,7 @@ KNOWN = {
     # On the stated confidence, for each tenth of its range: stated and actual probability in per cent.
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
     # From bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times.
-    "fps", "cpu", "dropped", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
+    "fps", "cpu", "dropped", "first_pose", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
     # From measure_python_client.py: numbers of frames.
     "sent", "heard",
     # From measure_viewers.py: 99 % and median of capture to publication [ms], and the ratio of the former; frames per
@@ -63,6 +63,7 @@ def of_case(case):
     """The figures of one case of bench; times in ms, memory in MB."""
     latency = case["capture_to_publish_ms"]
     return {"fps": case["frames_per_second"], "cpu": case["cpu_ms_per_frame"], "dropped": case["dropped"],
+            **({"first_pose": case["first_pose_ms"]} if case["first_pose_ms"] is not None else {}),
             "peak": case["peak_mb"], "stored": case["stored_frames_mb"],
             **{f"latency_{name}": latency[name] for name in ("p50", "p95", "p99") if name in latency}}
 

@@ -26,13 +26,13 @@ class MeasuringSink : public Sink {
 
   std::string name() const override { return "measure"; }
   Result<void> consume(const TrackedFrame& tracked) override {
+    const bool all_tracked = std::ranges::all_of(
+        tracked.estimates, [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
+    note_first_pose(*tracked.frame, all_tracked);
     if (++seen_ == conditions_.warm_up) start();
 
     if (seen_ <= conditions_.warm_up) return {};
-
-    // Count the frames in which all hands are tracked.
-    tracked_ += std::ranges::all_of(tracked.estimates,
-                                    [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
+    tracked_ += all_tracked;
 
     // Sample the memory at equal steps.
     const std::int64_t step = std::max<std::int64_t>(1, conditions_.frames / kMemoryPoints);
@@ -57,6 +57,7 @@ class MeasuringSink : public Sink {
     out.seconds = static_cast<double>(end_us_ - start_us_) * 1e-6;
     out.frames_per_second = counted / std::max(out.seconds, 1e-9);
     out.cpu_seconds_per_frame = (cpu_end_ - cpu_start_) / counted;
+    if (conditions_.rate) out.first_pose_seconds = first_pose_seconds_;
     out.tracked_fraction = static_cast<double>(tracked_) / counted;
     out.resident_mb = resident_mb_;
   }
@@ -65,10 +66,19 @@ class MeasuringSink : public Sink {
   std::function<void()> on_start;
 
  private:
+  // Called before a frame is counted.
+  void note_first_pose(const RgbdFrame& frame, bool all_tracked) {
+    if (seen_ == 0) first_capture_ = frame.utime;
+    if (all_tracked && !first_pose_seconds_)
+      first_pose_seconds_ = static_cast<double>(clock_.utime() - first_capture_) * 1e-6;
+  }
+
   const BenchConditions& conditions_;
   const std::int64_t stored_bytes_;
   const Clock& clock_;
   std::int64_t seen_ = 0, tracked_ = 0, start_us_ = 0, end_us_ = 0;
+  std::int64_t first_capture_ = 0;  // of the first frame [us since the epoch]
+  std::optional<double> first_pose_seconds_;
   double cpu_start_ = 0, cpu_end_ = 0;
   std::vector<double> resident_mb_;
 };

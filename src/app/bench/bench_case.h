@@ -39,6 +39,9 @@ struct BenchResult {
   double seconds = 0;  ///< wall clock time
   double frames_per_second = 0;
   double cpu_seconds_per_frame = 0;
+  /// Live runs only: time from the capture of the run's first frame until a pose of every hand is published [s]; none:
+  /// it never was.
+  std::optional<double> first_pose_seconds;
   double tracked_fraction = 0;      ///< fraction of frames in which all hands are tracked: a lost hand costs less time
   PipelineHealth health;            ///< includes the times of stages and queues
   TimeSummary received;             ///< age of a hand's state when it is received through LCM; live runs only

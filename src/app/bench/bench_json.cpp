@@ -28,6 +28,7 @@ Json to_json(const BenchRow& row) {
                {"frames_per_second", rounded(r.frames_per_second)},
                {"cpu_ms_per_frame", rounded(r.cpu_seconds_per_frame * 1e3)},
                {"tracked_share", rounded(r.tracked_fraction)},
+               {"first_pose_ms", r.first_pose_seconds ? Json(rounded(*r.first_pose_seconds * 1e3)) : Json(nullptr)},
 
                // Write dropped frames and memory.
                {"dropped", r.health.dropped},

@@ -21,6 +21,10 @@ std::string bench_text(const BenchRow& row) {
   text += formatted(": %.1f frames/s, %.2f ms CPU per frame, tracked in %.0f %%, %lld dropped\n", r.frames_per_second,
                     r.cpu_seconds_per_frame * 1e3, r.tracked_fraction * 100, static_cast<long long>(r.health.dropped));
 
+  if (r.first_pose_seconds)
+    text +=
+        formatted("  all hands tracked %.0f ms after the capture of the first frame\n", *r.first_pose_seconds * 1e3);
+
   // Write the memory.
   text += formatted("  resident: peak %.0f MB, of which %.0f MB are the stored frames\n", r.peak_bytes / kMegabyte,
                     r.frame_bytes / kMegabyte);
