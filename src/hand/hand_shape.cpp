@@ -133,7 +133,7 @@ HandProfile reshaped(const HandProfile& mean, const HandShape& shape) {
   return hand;
 }
 
-ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin) {
+ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin, const std::stop_token& stop) {
   constexpr double kStep = 0.01;  // step of the finite differences, in standard deviations of a shape component
   ShapeBasis basis;
   basis.outward.resize(static_cast<Eigen::Index>(skin.vertices.size()), Eigen::NoChange);
@@ -158,7 +158,7 @@ ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Sk
 
   // Compute finite differences, one shape component after the other.
   basis.joint[kPalm].setZero();
-  for (int k = 0; k < kShapeCount; ++k) {
+  for (int k = 0; k < kShapeCount && !stop.stop_requested(); ++k) {
     // Change the component slightly, and measure how far the joints move.
     const double step = kStep * shape_parameters()[k].deviation;
     HandShape changed = shape;

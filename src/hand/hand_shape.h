@@ -35,7 +35,8 @@ struct ShapeBasis {
   std::vector<Eigen::Vector3f> normal_in_b;  ///< normal of every skin vertex in the frame of its second segment
 };
 /// Computes the first-order change at `shape`; `skin` must be the skin of reshaped(mean, shape).
-ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin);
+ShapeBasis shape_basis(const HandProfile& mean, const HandShape& shape, const Skin& skin,
+                       const std::stop_token& stop = {});
 /// The skin after the small change `change` of the shape, to first order: much faster than rebuilding it.
 Skin morphed(const Skin& skin, const ShapeBasis& basis, const HandShape& change);
 

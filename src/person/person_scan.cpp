@@ -16,19 +16,19 @@ constexpr int kIterations = 8;            // Gauss-Newton steps in a refinement 
 /// Fits the poses of frames to a hand and, with add_frame(), the hand to the frames.
 class BatchFit {
  public:
-  BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, const std::stop_token& stop)
-      : params_(params), stop_(stop), fit_(every_frame(params.shape_fit), given) {
-    use(given, std::make_shared<const Skin>(make_skin(*given, params.skin_cell, stop)));
+  BatchFit(const PersonScanParams& params, std::shared_ptr<const HandProfile> given, Workers& workers,
+           const std::stop_token& stop)
+      : params_(params),
+        fit_(every_frame(params.shape_fit), given,
+             std::make_shared<const Skin>(make_skin(*given, params.skin_cell, stop)), params.skin_cell, workers, stop) {
+    use_fit();
   }
 
   // Refines the pose of a frame and fits the hand to it.
   void add_frame(ScanFrame& frame) {
     refine(frame);
-    const auto change = fit_.add_frame(*frame.observation, frame.pose, *refinement_, skin_);
-    if (change == PersonFit::Change::large)
-      use(fit_.profile(), std::make_shared<const Skin>(make_skin(*fit_.profile(), params_.skin_cell, stop_)));
-    else if (change == PersonFit::Change::small)
-      use(fit_.profile(), fit_.skin());
+    const auto change = fit_.add_frame(*frame.observation, frame.pose, *refinement_);
+    if (change != PersonFit::Change::none) use_fit();
   }
   void refine(ScanFrame& frame) const {
     frame.pose = refinement_->refine(*frame.observation, frame.pose, frame.pose, kIterations).pose;
@@ -41,15 +41,10 @@ class BatchFit {
     params.initial_frames = std::numeric_limits<int>::max();
     return params;
   }
-  void use(std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin) {
-    skin_ = skin;
-    refinement_ = std::make_unique<Refinement>(params_.refinement, std::move(profile), std::move(skin));
-  }
+  void use_fit() { refinement_ = std::make_unique<Refinement>(params_.refinement, fit_.profile(), fit_.skin()); }
 
   const PersonScanParams& params_;
-  const std::stop_token stop_;
   PersonFit fit_;
-  std::shared_ptr<const Skin> skin_;
   std::unique_ptr<Refinement> refinement_;
 };
 
@@ -59,7 +54,7 @@ std::shared_ptr<const HandProfile> scanned(const PersonScanParams& params, std::
                                            std::vector<ScanFrame> frames, Workers& workers,
                                            const std::stop_token& stop) {
   // Fit the bones and the joints first if the given profile is a mean hand (the average of many people).
-  BatchFit fit(params, given, stop);
+  BatchFit fit(params, given, workers, stop);
   const int passes = given->origin == ProfileOrigin::mean ? kPasses : 0;
   for (int pass = 0; pass < passes; ++pass)
     for (ScanFrame& frame : frames) {

@@ -15,8 +15,13 @@ std::shared_ptr<const HandSurface> make_surface(const TrackerParams& params, con
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person, Workers& workers,
                      std::shared_ptr<Observer> observer)
-    : HandModel(params, person, std::make_shared<const Skin>(make_skin(*person, params.skin_cell)),
-                std::make_shared<Initialiser>(person, params.initialiser), workers, std::move(observer)) {}
+    : HandModel(params, person, std::make_shared<const Skin>(make_skin(*person, params.skin_cell)), workers,
+                std::move(observer)) {}
+
+HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person,
+                     std::shared_ptr<const Skin> its_skin, Workers& workers, std::shared_ptr<Observer> observer)
+    : HandModel(params, person, its_skin, std::make_shared<Initialiser>(person, *its_skin, params.initialiser), workers,
+                std::move(observer)) {}
 
 HandModel::HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> person,
                      std::shared_ptr<const Skin> its_skin, std::shared_ptr<Initialiser> search, Workers& workers,

@@ -15,6 +15,9 @@ struct HandModel {
   /// must outlive the model.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, Workers& workers,
             std::shared_ptr<Observer> observer);
+  /// Makes the model with an existing skin of the profile, which saves a tenth of a second.
+  HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin,
+            Workers& workers, std::shared_ptr<Observer> observer);
   /// Makes the model with an existing skin and an existing initialiser; the initialiser may be that of a similar hand.
   HandModel(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::shared_ptr<const Skin> skin,
             std::shared_ptr<Initialiser> initialiser, Workers& workers, std::shared_ptr<Observer> observer);

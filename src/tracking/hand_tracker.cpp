@@ -9,9 +9,10 @@
 namespace barehand {
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-                         Workers& workers, std::shared_ptr<spdlog::logger> log, HandIds ids)
+                         Workers& workers, std::shared_ptr<spdlog::logger> log, HandIds ids,
+                         std::shared_ptr<const Skin> skin)
     : context_{params, seed, workers, log, make_observer(params.segment_tracker, workers, log)},
-      person_(context_, std::move(profile)),
+      person_(context_, std::move(profile), std::move(skin)),
       follower_(context_),
       choice_(context_.params.choice),
       proposers_(context_, choice_),
@@ -186,6 +187,7 @@ TrackView HandTracker::view() const {
           .start_is_given = given_start_.has_value(),
           .expected_pose = given_start_ ? &*given_start_ : last,
           .profile = person_.shared_profile(),
+          .skin = person_.shared_skin(),
           .effort = track_.effort(params.full_search_every),
           .full_attempts = track_.attempts(Effort::full, params.search_attempts)};
 }

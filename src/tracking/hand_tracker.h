@@ -48,6 +48,7 @@ struct TrackView {
   bool start_is_given;                         ///< a pose given by StartAt waits for the next observation
   const HandPose* expected_pose;               ///< last or given pose, near which the hand is expected; null: unknown
   std::shared_ptr<const HandProfile> profile;  ///< profile as it was fitted to the person so far
+  std::shared_ptr<const Skin> skin;            ///< skin of that profile
   Effort effort;                               ///< effort of the next search
   int full_attempts;                           ///< number of attempts of a full search
 
@@ -63,9 +64,10 @@ struct TrackView {
 class HandTracker {
  public:
   /// `workers` must outlive the tracker. `log` receives whether the CPU or the GPU compares samples with the data, what
-  /// is learnt of the person, and warnings.
+  /// is learnt of the person, and warnings. `skin`: of the profile; null: it is made.
   HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
-              Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger(), HandIds ids = {});
+              Workers& workers, std::shared_ptr<spdlog::logger> log = make_silent_logger(), HandIds ids = {},
+              std::shared_ptr<const Skin> skin = nullptr);
   HandTracker(const HandTracker&) = delete;
   HandTracker& operator=(const HandTracker&) = delete;
 

@@ -5,16 +5,28 @@
 
 namespace barehand {
 
-PersonModel::PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given)
-    : context_(context), given_(std::move(given)), model_(model_of(given_)) {
+PersonModel::PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given,
+                         std::shared_ptr<const Skin> skin)
+    : context_(context),
+      given_(std::move(given)),
+      given_skin_(skin ? std::move(skin) : skin_of(*given_)),
+      model_(model_of(given_, given_skin_)) {
   if (context_.params.shape_fit.enabled) start_learning();
 }
 
-std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfile> profile) const {
-  return std::make_unique<HandModel>(context_.params, std::move(profile), context_.workers, context_.observer);
+std::shared_ptr<const Skin> PersonModel::skin_of(const HandProfile& profile) const {
+  return std::make_shared<const Skin>(make_skin(profile, context_.params.skin_cell));
+}
+
+std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfile> profile,
+                                                 std::shared_ptr<const Skin> skin) const {
+  return std::make_unique<HandModel>(context_.params, std::move(profile), std::move(skin), context_.workers,
+                                     context_.observer);
 }
 
 void PersonModel::start_learning() {
+  stop_fit_.request_stop();
+  stop_fit_ = {};
   fit_.reset();
   size_verifier_.reset();
   size_in_view_ = 1;
@@ -24,7 +36,7 @@ void PersonModel::start_learning() {
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
                                          given_, context_.workers);
   if (given_->origin == ProfileOrigin::mean)
-    fit_.emplace(params.shape_fit, given_);
+    fit_.emplace(params.shape_fit, given_, given_skin_, params.skin_cell, context_.workers, stop_fit_.get_token());
   else
     expect_any_size();
 }
@@ -35,21 +47,30 @@ void PersonModel::expect_any_size() {
 
 void PersonModel::reset() {
   if (!context_.params.shape_fit.enabled) return;
-  if (model_->profile != given_) model_ = model_of(given_);
+  if (model_->profile != given_) model_ = model_of(given_, given_skin_);
   start_learning();
 }
 
 void PersonModel::use(std::shared_ptr<const HandProfile> given) {
   given_ = std::move(given);
-  model_ = model_of(given_);
+  given_skin_ = skin_of(*given_);
+  model_ = model_of(given_, given_skin_);
   scan_.reset();
   reset();
 }
 
 void PersonModel::change(const TrackerParams& params, std::shared_ptr<Observer> observer) {
-  auto model = std::make_unique<HandModel>(params, model_->profile, context_.workers, std::move(observer));
+  // Make everything before anything changes.
+  const auto skin_with = [&](const HandProfile& hand) {
+    return std::make_shared<const Skin>(make_skin(hand, params.skin_cell));
+  };
+  std::shared_ptr<const Skin> given_skin = given_skin_, skin = skin_with(*model_->profile);
+  if (params.skin_cell != context_.params.skin_cell) given_skin = skin_with(*given_);
+  auto model = std::make_unique<HandModel>(params, model_->profile, skin, context_.workers, std::move(observer));
+
+  given_skin_ = std::move(given_skin);
   model_ = std::move(model);
-  if (fit_) fit_->expect_new_skin();
+  if (fit_) fit_->use_skin(std::move(skin), params.skin_cell);
   if (size_verifier_) size_verifier_.emplace(params.refinement, model_->profile, model_->skin);
 }
 
@@ -81,9 +102,9 @@ void PersonModel::note_size_mismatch(double size) {
 }
 
 void PersonModel::fit_bones(const HandObservation& observation, const HandPose& pose) {
-  const PersonFit::Change change = fit_->add_frame(observation, pose, model_->refinement, model_->skin);
+  const PersonFit::Change change = fit_->add_frame(observation, pose, model_->refinement);
   if (change == PersonFit::Change::large) {
-    model_ = model_of(fit_->profile());
+    model_ = model_of(fit_->profile(), fit_->skin());
     context_.log->info(
         "hand fitted to the person after {} contributing frames: {:.0f} mm long, the mean hand {:.0f} mm",
         fit_->fit().frames(), 1e3 * fit_->profile()->hand_length(), 1e3 * given_->hand_length());

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 
 #include "person/person_fit.h"
 #include "person/person_scan.h"
@@ -16,13 +17,20 @@ namespace barehand {
 /// What is learnt is used from the next frame on.
 class PersonModel {
  public:
-  /// `given`: the profile before anything is learnt. `context` must outlive this object.
-  PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given);
+  /// `given`: the profile before anything is learnt; `skin`: its skin, or null, if it is still to be made. `context`
+  /// must outlive this object.
+  PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given,
+              std::shared_ptr<const Skin> skin = nullptr);
+
+  ~PersonModel() { stop_fit_.request_stop(); }
+  PersonModel(const PersonModel&) = delete;
+  PersonModel& operator=(const PersonModel&) = delete;
 
   HandModel& hand() { return *model_; }
   /// The profile as learnt so far.
   const HandProfile& profile() const { return *model_->profile; }
   const std::shared_ptr<const HandProfile>& shared_profile() const { return model_->profile; }
+  const std::shared_ptr<const Skin>& shared_skin() const { return model_->skin; }
   /// Size of the hand in view relative to its profile; 1 unless another size was found.
   double size_in_view() const { return size_in_view_; }
 
@@ -44,7 +52,9 @@ class PersonModel {
   void change(const TrackerParams& params, std::shared_ptr<Observer> observer);
 
  private:
-  std::unique_ptr<HandModel> model_of(std::shared_ptr<const HandProfile> profile) const;
+  std::shared_ptr<const Skin> skin_of(const HandProfile& profile) const;
+  std::unique_ptr<HandModel> model_of(std::shared_ptr<const HandProfile> profile,
+                                      std::shared_ptr<const Skin> skin) const;
   void start_learning();
   void expect_any_size();
   void check_size(const HandObservation& observation, const RefinedPose& refined);
@@ -52,7 +62,9 @@ class PersonModel {
 
   const TrackerContext& context_;
   std::shared_ptr<const HandProfile> given_;
+  std::shared_ptr<const Skin> given_skin_;
   std::unique_ptr<HandModel> model_;
+  std::stop_source stop_fit_;                      // stops what `fit_` does in the background
   std::optional<PersonFit> fit_;                   // only if the given profile is a mean hand
   std::unique_ptr<PersonScan> scan_;               // only if the skin of the given profile was not scanned
   std::optional<HandSizeVerifier> size_verifier_;  // only while the profile is not being fitted

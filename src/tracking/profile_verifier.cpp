@@ -48,16 +48,22 @@ constexpr int kToConfirm = 3;
 
 }  // namespace
 
-ProfileVerifier::ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed,
-                                 Workers& workers, std::shared_ptr<spdlog::logger> log)
-    : params_(params), profile_(profile), seed_(seed), workers_(workers), log_(std::move(log)) {
+ProfileVerifier::ProfileVerifier(const TrackerParams& params, const HandProfile& profile,
+                                 std::shared_ptr<const Skin> skin, std::uint64_t seed, Workers& workers,
+                                 std::shared_ptr<spdlog::logger> log)
+    : params_(params), profile_(profile), skin_(std::move(skin)), seed_(seed), workers_(workers), log_(std::move(log)) {
   // The trackers of this check run for a few frames only, so scanning a skin or opening a GPU is not worth the time.
   params_.shape_fit.scans = 0;
   params_.segment_tracker.observer = "cpu";
 }
 
-std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(const HandProfile& profile) const {
-  return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(profile), seed_, workers_);
+std::unique_ptr<HandTracker> ProfileVerifier::tracker_of(HandProfile profile, Skin skin) const {
+  return std::make_unique<HandTracker>(params_, std::make_shared<const HandProfile>(std::move(profile)), seed_,
+                                       workers_, make_silent_logger(), HandIds(),
+                                       std::make_shared<const Skin>(std::move(skin)));
+}
+std::unique_ptr<HandTracker> ProfileVerifier::tracker_of_size(double size) const {
+  return tracker_of(scaled(profile_, size), scaled(*skin_, size));
 }
 
 void ProfileVerifier::report_other_side() {
@@ -69,7 +75,7 @@ void ProfileVerifier::report_other_side() {
 }
 
 HandTracker& ProfileVerifier::other_side() {
-  if (!mirrored_) mirrored_ = tracker_of(mirrored(profile_));
+  if (!mirrored_) mirrored_ = tracker_of(mirrored(profile_), mirrored(*skin_));
   return *mirrored_;
 }
 
@@ -81,18 +87,26 @@ void ProfileVerifier::begin_verification(const HandObservation& observation, std
 
 bool ProfileVerifier::is_detected_as_other_side(const HandObservation& observation) {
   ++searched_frames_;
+  own_side_is_sure_ = false;
   if (!observation.detected) return false;
   const DetectedHand& hand = *observation.detected;
   const double log_odds = -side_sign(profile_.handedness) * hand.right_log_odds;
-  const bool other = other_side_evidence_.add(searched_frames_, hand.centre, log_odds) > kSureSide;
-  if (other) report_other_side();
-  return other;
+  const double sum = other_side_evidence_.add(searched_frames_, hand.centre, log_odds);
+  own_side_is_sure_ = sum < -kSureSide;
+  if (sum > kSureSide) report_other_side();
+  return sum > kSureSide;
 }
 
 bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort effort, int attempts, double score) {
-  // Search with the mirrored profile in the same observation.
+  // If the networks are sure of the profile's side, the verification over the next frames suffices.
   verification_.reset();
   const bool confident = score < params_.choice.confident_score;
+  if (own_side_is_sure_ && to_confirm_ == 0) {
+    if (!confident) begin_verification(observation, std::nullopt);
+    return false;
+  }
+
+  // Search with the mirrored profile in the same observation.
   auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
 
@@ -163,7 +177,7 @@ std::optional<double> ProfileVerifier::verified_size(const HandObservation& obse
   std::optional<double> best;
   for (const double log_other : log_sizes) {
     const double size = std::exp(log_other);
-    const auto found = tracker_of(scaled(profile_, size))->search(observation, Effort::quick, 1);
+    const auto found = tracker_of_size(size)->search(observation, Effort::quick, 1);
     if (!found || !clearly_better(found->score(), score)) continue;
     score = found->score();
     best = size;
@@ -184,7 +198,7 @@ void ProfileVerifier::nothing_found(const HandObservation& observation, double s
 
   // Search with a smaller or a larger copy.
   const double size = kSizes[tries_++ % kSizes.size()];
-  const auto other = tracker_of(scaled(profile_, size))->search(observation, Effort::quick, 1);
+  const auto other = tracker_of_size(size)->search(observation, Effort::quick, 1);
   const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // scores grow with the size of the hand
   if (!other || other->score() > lost_score || !clearly_better(other->score(), score)) return;
   log_->warn("{}", other_size(size, profile_));

@@ -14,18 +14,19 @@ namespace barehand {
 /// them fits better.
 class ProfileVerifier {
  public:
-  /// `workers` must outlive this object.
-  ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::uint64_t seed, Workers& workers,
-                  std::shared_ptr<spdlog::logger> log);
+  /// `skin`: of the profile. `workers` must outlive this object.
+  ProfileVerifier(const TrackerParams& params, const HandProfile& profile, std::shared_ptr<const Skin> skin,
+                  std::uint64_t seed, Workers& workers, std::shared_ptr<spdlog::logger> log);
 
   /// Call once for each frame in which the hand is searched. Returns whether the networks are sure, by this and earlier
   /// frames, that the detected hand is of the other side. If so, reports it.
   bool is_detected_as_other_side(const HandObservation& observation);
 
-  /// Call after a search with up to `attempts` attempts found the hand with `score` [m]. Searches with the mirrored
-  /// profile, with fewer attempts, and returns whether that explains the observation clearly better. After a
-  /// verification found the other side, it returns true until the profile's side has won several successive searches.
-  /// If it returns false but the score is not confident, a verification begins.
+  /// Call after a search with up to `attempts` attempts found the hand with `score` [m]. Unless the networks are sure
+  /// of the profile's side, searches with the mirrored profile, with fewer attempts, and returns whether that explains
+  /// the observation clearly better. After a verification found the other side, it returns true until the profile's
+  /// side has won several successive searches. If it returns false but the score is not confident, a verification
+  /// begins.
   bool is_other_side(const HandObservation& observation, Effort effort, int attempts, double score);
 
   /// Begins a verification: during the first frames of a track, the mirrored profile is tracked, too. A single frame
@@ -54,7 +55,8 @@ class ProfileVerifier {
   void nothing_found(const HandObservation& observation, double score);
 
  private:
-  std::unique_ptr<HandTracker> tracker_of(const HandProfile& profile) const;
+  std::unique_ptr<HandTracker> tracker_of(HandProfile profile, Skin skin) const;
+  std::unique_ptr<HandTracker> tracker_of_size(double size) const;
   HandTracker& other_side();
   // Searches with copies of the hand profile that are scaled by about exp(`log_size`). Returns the size of the best one
   // if it explains the observation clearly better than `score` [m].
@@ -64,11 +66,13 @@ class ProfileVerifier {
 
   TrackerParams params_;
   HandProfile profile_;
+  std::shared_ptr<const Skin> skin_;
   std::uint64_t seed_;
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<HandTracker> mirrored_;
   HandEvidence other_side_evidence_;  // log odds of the other side against the profile's
+  bool own_side_is_sure_ = false;     // whether the networks are sure, in this frame, of the profile's side
   std::uint32_t searched_frames_ = 0;
   bool side_reported_ = false, size_reported_ = false;
   int failures_ = 0, tries_ = 0;  // calls of nothing_found() with a hand-like region, and tries of another size

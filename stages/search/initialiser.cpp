@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "hand/skin.h"
-
 namespace barehand {
 
 namespace {
@@ -16,10 +14,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMaxPitch = 0.9;    // largest tilt of a template towards the camera or away from it [rad]
-constexpr double kSkinCell = 0.004;  // resolution of the skin from which surface points are drawn [m]
-constexpr int kSkinPoints = 600;     // surface points per segment: dense enough for the palm on the fine grid
-constexpr int kLastGoodTurns = 8;    // in-plane rotations in which the last good pose is tried
+constexpr double kMaxPitch = 0.9;  // largest tilt of a template towards the camera or away from it [rad]
+constexpr int kSkinPoints = 600;   // surface points per segment: dense enough for the palm on the fine grid
+constexpr int kLastGoodTurns = 8;  // in-plane rotations in which the last good pose is tried
 // Centre and heel of the palm, as fractions of the palm's bone from the wrist.
 constexpr double kPalmCentre = 0.6, kHeel = 0.3;
 // Number of trials in one parallel task, for templates and for changed fingers.
@@ -70,9 +67,9 @@ double pose_distance(const HandProfile& profile, const HandPose& a, const HandPo
   return sum / kSegmentCount;
 }
 
-Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params)
+Initialiser::Initialiser(std::shared_ptr<const HandProfile> profile, const Skin& skin, const InitialiserParams& params)
     : profile_(std::move(profile)),
-      surface_(surface_points(make_skin(*profile_, kSkinCell), *profile_, kSkinPoints)),
+      surface_(surface_points(skin, *profile_, kSkinPoints)),
       params_(params),
       limits_(widened_limits(*profile_, params.widening)),
       shapes_(shape_templates(*profile_, limits_)),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.h"
+#include "hand/skin.h"
 #include "observe/registration/rigid_icp.h"
 #include "stages/search/pose_search.h"
 
@@ -112,7 +113,8 @@ enum class HiddenCost { counted, ignored };
 /// number of threads.
 class Initialiser {
  public:
-  Initialiser(std::shared_ptr<const HandProfile> profile, const InitialiserParams& params);
+  /// `skin`: of the profile.
+  Initialiser(std::shared_ptr<const HandProfile> profile, const Skin& skin, const InitialiserParams& params);
 
   /// Returns start poses, best first; none if the observation shows too little of a hand. `last_good`: last good pose
   /// before a loss, which is tried at its own position and, in several in-plane rotations, moved onto the data. A quick

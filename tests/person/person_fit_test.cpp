@@ -30,9 +30,9 @@ class PersonFitTest : public ::testing::Test {
       const HandPose truth = test::turned(facing, {0.4 * std::sin(i), 0.5 * std::cos(0.7 * i), 0}, facing[kPalm].t);
       const auto observation = test::observe_skin(persons_skin_, truth);
       const RefinedPose refined = model_->refinement.refine(*observation, truth, truth, 5);
-      const auto change = fit_.add_frame(*observation, refined.pose, model_->refinement, model_->skin);
+      const auto change = fit_.add_frame(*observation, refined.pose, model_->refinement);
       if (change == PersonFit::Change::large)
-        model_ = std::make_unique<HandModel>(params_, fit_.profile(), workers_, nullptr);
+        model_ = std::make_unique<HandModel>(params_, fit_.profile(), fit_.skin(), workers_, nullptr);
       if (change == PersonFit::Change::small)
         model_ =
             std::make_unique<HandModel>(params_, fit_.profile(), fit_.skin(), model_->initialiser, workers_, nullptr);
@@ -51,7 +51,7 @@ class PersonFitTest : public ::testing::Test {
       std::make_shared<const HandProfile>(reshaped(*mean_, shape_of_the_person()));
   const Skin persons_skin_ = make_blended_skin(*person_, 0.004);
   std::unique_ptr<HandModel> model_ = std::make_unique<HandModel>(params_, mean_, workers_, nullptr);
-  PersonFit fit_{params_.shape_fit, mean_};
+  PersonFit fit_{params_.shape_fit, mean_, model_->skin, params_.skin_cell, workers_};
 };
 
 TEST_F(PersonFitTest, FindsThePersonsHand) {

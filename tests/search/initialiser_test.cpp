@@ -20,6 +20,8 @@ void expect_equal(const std::vector<StartCandidate>& a, const std::vector<StartC
     for (int s = 0; s < kSegmentCount; ++s) EXPECT_EQ(a[i].pose[s].matrix(), b[i].pose[s].matrix());
 }
 
+constexpr double kSkinCell = 0.004;
+
 class InitialiserTest : public testing::Test {
  protected:
   void SetUp() override { use(test::adult_hand()); }
@@ -27,7 +29,7 @@ class InitialiserTest : public testing::Test {
     ASSERT_TRUE(profile);
     profile_ = profile;
     limits_ = widened_limits(*profile, 0.1);
-    initialiser_ = std::make_unique<Initialiser>(profile, InitialiserParams{});
+    initialiser_ = std::make_unique<Initialiser>(profile, make_skin(*profile, kSkinCell), InitialiserParams{});
   }
   /// A pose similar to the template `index`, with the middle of the hand near the optical axis at a depth of 0.4 m.
   HandPose shape(std::size_t index, double roll, double in_plane) const {
@@ -81,7 +83,8 @@ TEST_F(InitialiserTest, VariantsOfOnePoseLeaveRoomForPosesElsewhere) {
   const auto observation = test::PointWorld(*profile_).observe(shape(1, 0, 0));
   InitialiserParams params;
   const auto alone = [&] {  // proposals that are no variant of another one
-    const auto starts = Initialiser(profile_, params).propose(*observation, Effort::full, kSeed, workers_);
+    const auto starts = Initialiser(profile_, make_skin(*profile_, kSkinCell), params)
+                            .propose(*observation, Effort::full, kSeed, workers_);
     EXPECT_EQ(starts.size(), static_cast<std::size_t>(params.results));
     return std::ranges::count_if(starts, [&](const StartCandidate& a) {
       return std::ranges::count_if(starts, [&](const StartCandidate& b) {

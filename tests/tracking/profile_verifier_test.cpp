@@ -38,11 +38,12 @@ class ProfileVerification : public ::testing::Test {
   }
 
   const std::shared_ptr<const HandProfile> right_ = test::adult_hand(), left_ = test::adult_hand(Handedness::left);
+  const std::shared_ptr<const Skin> right_skin_ = std::make_shared<const Skin>(make_skin(*right_, 0.004));
   const HandObservationPtr left_hand_ =
       test::observe_skin(make_blended_skin(*left_, 0.004), test::facing_pose(*left_, 0.5, 0.5));
   Workers workers_{1};
   std::ostringstream said_;
-  ProfileVerifier verifier_{params(), *right_, 1, workers_, test::text_logger(said_)};
+  ProfileVerifier verifier_{params(), *right_, right_skin_, 1, workers_, test::text_logger(said_)};
   std::int64_t utime_ = 1'000'000;
 };
 
@@ -93,7 +94,9 @@ TEST_F(ProfileVerification, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
 }
 
 TEST_F(ProfileVerification, AnotherSizeIsFoundOutHoweverLongNoHandWasThere) {
-  ProfileVerifier check(params(), scaled(*left_, 0.8), 1, workers_, test::text_logger(said_));
+  const HandProfile small = scaled(*left_, 0.8);
+  ProfileVerifier check(params(), small, std::make_shared<const Skin>(make_skin(small, 0.004)), 1, workers_,
+                        test::text_logger(said_));
   for (int i = 0; i < 500; ++i) check.nothing_found(HandObservation{}, INFINITY);
   for (int i = 0; i < 40; ++i) check.nothing_found(*seen(), kBad);
   EXPECT_NE(said_.str().find("% larger"), std::string::npos) << said_.str();
@@ -102,7 +105,7 @@ TEST_F(ProfileVerification, AnotherSizeIsFoundOutHoweverLongNoHandWasThere) {
 TEST_F(ProfileVerification, NoneIsNeededWhereTheStartConvinces) {
   TrackerParams convinced = params();
   convinced.choice.confident_score = 1;
-  ProfileVerifier check(convinced, *right_, 1, workers_, test::text_logger(said_));
+  ProfileVerifier check(convinced, *right_, right_skin_, 1, workers_, test::text_logger(said_));
   EXPECT_FALSE(check.is_other_side(*seen(), Effort::quick, 1, kGood));
   EXPECT_FALSE(check.verifying());
 }
