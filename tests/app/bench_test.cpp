@@ -101,6 +101,7 @@ BenchReport small_report() {
     row.config = "default.yaml";
     row.result.cpu_seconds_per_frame = 0.01 + value * 1e-4;
     row.result.resident_mb = {50, 51};
+    if (value == 0) row.result.first_pose_seconds = 0.05;
 
     // The times of its stages; how full the queue was is missing.
     row.result.health.stages = {{"track", {100, 0.008, 0.007, 0.009, 0.010, 0.011}, 0}};
@@ -119,6 +120,8 @@ TEST(BenchReport, WritesFiguresInMillisecondsAndDrawsThem) {
   ASSERT_TRUE(json.has_value()) << json.error().message();
   EXPECT_EQ(json->at("cases")[0].at("stages_ms").at("track").at("p99"), 10);
   EXPECT_EQ(json->at("cases")[1].at("cpu_ms_per_frame"), 11);
+  EXPECT_EQ(json->at("cases")[0].at("first_pose_ms"), 50);
+  EXPECT_TRUE(json->at("cases")[1].at("first_pose_ms").is_null());
   EXPECT_EQ(json->at("observers")[0].at("samples"), 640);
   EXPECT_EQ(json->at("observers")[0].at("cpu_ms"), 0.3);
   EXPECT_EQ(json->at("observers")[0].at("device_ms"), 0.1);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "support/painted_hand.h"
 #include "tracking/hand_model.h"
@@ -70,6 +72,27 @@ TEST_F(PersonFitTest, KnowsWhatItHasNotSeen) {
   const HandShape after = fit_.fit().deviation();
   EXPECT_LT(after[0], before[0]);
   for (int k = 0; k < kShapeCount; ++k) EXPECT_LE(after[k], before[k] + 1e-9) << shape_parameters()[k].name;
+}
+
+// Skins are built beside a live source; until the first is ready, frames change nothing, and none has to wait.
+TEST_F(PersonFitTest, FitsBesideALiveSource) {
+  Workers live(1);
+  live.go_live();
+  PersonFit fit(params_.shape_fit, mean_, model_->skin, params_.skin_cell, live);
+  const HandPose truth = test::facing_pose(*person_, 0.45, 0.3);
+  const auto observation = test::observe_skin(persons_skin_, truth);
+  const RefinedPose refined = model_->refinement.refine(*observation, truth, truth, 5);
+  EXPECT_EQ(fit.add_frame(*observation, refined.pose, model_->refinement), PersonFit::Change::none);
+
+  auto change = PersonFit::Change::none;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (change == PersonFit::Change::none && std::chrono::steady_clock::now() < deadline) {
+    change = fit.add_frame(*observation, refined.pose, model_->refinement);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(change, PersonFit::Change::small);
+  EXPECT_NE(fit.skin(), model_->skin);
+  EXPECT_EQ(fit.fit().frames(), 1);
 }
 
 }  // namespace

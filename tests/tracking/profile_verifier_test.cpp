@@ -6,6 +6,7 @@
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
+#include "support/rendered_person.h"
 #include "support/text_logger.h"
 #include "tracking/quick_tracker.h"
 
@@ -81,6 +82,29 @@ TEST_F(ProfileVerification, GoesOnAfterAFrameWithoutTheHand) {
   verifier_.track_mirrored(*seen());
   EXPECT_FALSE(verifier_.turns_out_other_side(held));
   EXPECT_TRUE(verification(kBad));
+}
+
+TEST_F(ProfileVerification, WhereTheNetworksAreSureOfTheSideTheStartWaitsForNoSearch) {
+  const auto detected_with = [&](double right_log_odds) {
+    auto observation = test::stamped(*left_hand_, utime_ += 33'000);
+    auto hand = std::make_shared<DetectedHand>();
+    const auto joints = test::landmarks(*left_, test::facing_pose(*left_, 0.5, 0.5));
+    for (int k = 0; k < kLandmarkCount; ++k) hand->joints[k] = {joints[k], 2.5e-5 * Eigen::Matrix3d::Identity()};
+    hand->palm = 0.9;
+    hand->labels.label.reset(1, 1, SurfaceLabel::hand);
+    hand->labels.hand_log_odds.reset(1, 1, 6.f);
+    hand->right_log_odds = right_log_odds;
+    observation->detected = std::move(hand);
+    EXPECT_FALSE(verifier_.is_detected_as_other_side(*observation));
+    return verifier_.is_other_side(*observation, Effort::quick, 1, kBad);
+  };
+  EXPECT_TRUE(detected_with(1)) << "the networks are not sure, so the mirrored hand is searched, and is better";
+  EXPECT_FALSE(detected_with(20));
+
+  // The networks may err, so the next frames verify the side, and then search the mirrored hand before a start.
+  ASSERT_TRUE(verifier_.verifying());
+  EXPECT_TRUE(verification(kBad));
+  EXPECT_TRUE(detected_with(20));
 }
 
 TEST_F(ProfileVerification, OnceFoundOutTheOwnSideMustWinSeveralSearches) {
