@@ -71,11 +71,8 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
   const int frames = ++track.ambiguous_frames;
   if (observation.detected) return detected(observation, hand);
 
-  // Without a detection, try searches in turn. If the track follows something other than the hand, it is ambiguous from
-  // its start on, so one full search is made early. Later ambiguity is mostly about fingers: then the searches are
-  // quick, or near the followed pose.
+  // Without a detection, try quick searches and searches near the followed pose in turn.
   const int first = (params.ambiguous_search_every + 1) / 2;
-  if (frames == first) return search_once(observation, hand, track, Effort::full, 1, frame);
   if (frames % params.ambiguous_search_every == first % params.ambiguous_search_every)
     return search_once(observation, hand, track, Effort::quick, 0, frame);
   if (frames % params.ambiguous_near_every == 0) return search_near(observation, hand, followed.refined.pose, frame);
