@@ -56,7 +56,8 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   // Contacts are found if they are requested or if there are known objects to track, which the tracker gets back.
   TrackStages stages;
   // The hands wait for the objects of earlier frames only if they couple with them. A reload does not change this.
-  const bool coupled = config.tracker.refinement.objects.enabled && !objects.empty();
+  const RefinementParams& refinement = config.tracker.refinement;
+  const bool coupled = refinement.enabled && refinement.objects.enabled && !objects.empty();
   const auto feedback = coupled ? std::make_shared<ObjectFeedback>() : nullptr;
   if (config.contact.enabled || !objects.empty())
     stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects), feedback,

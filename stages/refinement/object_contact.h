@@ -12,7 +12,7 @@ namespace barehand {
 
 /// Weights of the terms that couple a hand with known objects.
 struct ObjectContactParams {
-  bool enabled = false;
+  bool enabled = true;  ///< has an effect only where known objects are given
   double sigma_inside = 0.002;
   double sigma_touch = 0.004;
   double touch_scale = 0.015;

@@ -37,12 +37,12 @@ TEST(Reload, SaysWhatStaysUntilARestartAndKeepsIt) {
   Config wanted;
   wanted.run.channel_prefix = "LEFT_";
   wanted.tracker.shape_fit.enabled = !wanted.tracker.shape_fit.enabled;
-  wanted.tracker.refinement.objects.enabled = true;
+  wanted.tracker.refinement.objects.enabled = false;
   wanted.tracker.loss.hold_time = wanted.publish.hold_time = 2;  // one key of the file sets both
   const Reload::Changes changes = reload.apply(wanted);
   EXPECT_THAT(changes.made, ElementsAre("tracker.loss.hold_time: 0.5 -> 2"));
   EXPECT_THAT(changes.for_restart,
-              ElementsAre("run.channel_prefix: \"\" -> \"LEFT_\"", "tracker.refinement.objects.enabled: false -> true",
+              ElementsAre("run.channel_prefix: \"\" -> \"LEFT_\"", "tracker.refinement.objects.enabled: true -> false",
                           "tracker.shape_fit.enabled: true -> false"));
   EXPECT_EQ(pending.tracker.take()->shape_fit.enabled, Config{}.tracker.shape_fit.enabled);
   EXPECT_EQ(pending.bus.take()->hold_time, 2) << "one key serves the tracker and what is published";
