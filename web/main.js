@@ -15,7 +15,7 @@ const kHintMs = 10000;      // how long the answer to a button is shown
 const kNoContacts = "Nothing tells what the hand touches, because contacts are off in the tracker. Start it with " +
   "contact.enabled: true in its configuration (--config FILE), or with a known object (--object FILE).";
 
-const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, raw: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
+const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, smoothed: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();
 const skins = [];  // skins that arrived before the 3D view was ready
 let scene = null, sceneProblem = "", latest = null, shown = null, unacknowledged = 0, frameAt = -1e9, status = null, open = false, closed = "", ended = false;
@@ -66,7 +66,6 @@ const connection = new Connection({
   async onFrame(frame) {
     for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins[skin.side] = skin;
     frameAt = performance.now();
-    meter.add(frame.header, status && status.live, frameAt);
     if (!state.freeze) {
       plots.add(frame);
       await (decoding = decoding.then(() => picture.decode(frame)));  // so that hand and image show the same frame
@@ -87,6 +86,7 @@ function loop(now) {
     latest = null;
     if (scene) scene.show(shown);
     showPicture(shown);
+    meter.add(shown.header, status && status.live, performance.now());
   }
   if (scene) scene.draw(now);
   for (; unacknowledged > 0; --unacknowledged) connection.acknowledge();
@@ -103,7 +103,7 @@ function loop(now) {
 
 function showPicture(frame) {
   picture.explain(state.picture, frame);
-  picture.show(frame, !state.raw, state.view === "camera");
+  picture.show(frame, state.smoothed, state.view === "camera");
   if (scene) scene.setPicture(state.view === "camera" && frame.picture ? picture.plain : null);
 }
 
@@ -178,7 +178,7 @@ function applyState() {
   connection.want({cloud: state.cloud, picture: state.picture, large: state.view === "camera"});
   if (!scene) return;
   if (scene.view !== state.view) scene.setView(state.view);
-  Object.assign(scene.options, {smoothed: !state.raw, ellipsoids: state.ellipsoids, touches: state.touches, floor: state.floor});
+  Object.assign(scene.options, {smoothed: state.smoothed, ellipsoids: state.ellipsoids, touches: state.touches, floor: state.floor});
   if (!shown) return;
   showPicture(shown);
   scene.show(state.cloud === "none" ? {...shown, cloud: null} : shown);
@@ -201,7 +201,7 @@ function onKey(event) {
   if (event.key === " " && event.target.tagName === "BUTTON") return;  // the browser presses the focused button
   const keys = {
     "1": () => set({view: "follow"}), "2": () => set({view: "orbit"}), "3": () => set({view: "camera"}),
-    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: toggleContacts, r: () => toggle("raw"), g: () => toggle("floor"), f: () => toggle("freeze"),
+    c: () => set({cloud: next(kClouds, state.cloud)}), e: () => toggle("ellipsoids"), k: toggleContacts, m: () => toggle("smoothed"), g: () => toggle("floor"), f: () => toggle("freeze"),
     p: () => set({picture: next(kPictures, state.picture)}),
     h: () => { plots.side = 1 - plots.side; },
     s: saveScreenshot, v: () => recorder.press(), t: changeTheme,

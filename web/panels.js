@@ -96,17 +96,17 @@ export function showConnection(state, text) {
   byId("connection").textContent = text;
 }
 
-// Measures the frame rate and the latency from the depth image to the sending of the frame.
+// Measures the rate of the frames that the page shows, and the latency from the depth image to the sending of the frame.
 export class Meter {
-  constructor() { this.arrivals = []; }
+  constructor() { this.times = []; }
   add(header, live, now) {
-    this.arrivals.push(now);
-    while (this.arrivals.length > 1 && now - this.arrivals[0] > 2000) this.arrivals.shift();
+    this.times.push(now);
+    while (this.times.length > 1 && now - this.times[0] > 2000) this.times.shift();
     if (live && header.sent > header.utime) this.latency = (header.sent - header.utime) / 1000;
   }
   show(live, now) {
-    while (this.arrivals.length > 0 && now - this.arrivals[0] > 2000) this.arrivals.shift();
-    byId("rate").textContent = (this.arrivals.length / 2).toFixed(0);
+    while (this.times.length > 0 && now - this.times[0] > 2000) this.times.shift();
+    byId("rate").textContent = (this.times.length / 2).toFixed(0);
     const known = live && this.latency !== undefined && this.latency < 10000;
     byId("latency").parentElement.hidden = !known;
     if (known) byId("latency").textContent = this.latency.toFixed(0);

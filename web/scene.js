@@ -49,7 +49,7 @@ export class Scene {
     this.setRoom(null);
 
     this.view = "follow";
-    this.options = {smoothed: true, ellipsoids: false, touches: true, floor: true, coverage: null, paused: false};
+    this.options = {smoothed: false, ellipsoids: false, touches: true, floor: true, coverage: null, paused: false};
     this.ground = new THREE.Color();
     this.picture = null;  // texture in the background of the view from the sensor
     this.header = null;

@@ -10,7 +10,10 @@ constexpr int kMostLost = 1000;  // a gap of more frames is not a loss: the sens
 }  // namespace
 
 LiveOutput::LiveOutput(std::string source, std::size_t capacity, const Clock& clock)
-    : source_(std::move(source)), box_(capacity), filter_(clock, kRepeatEvery) {}
+    : source_(std::move(source)),
+      box_(capacity),
+      filter_(clock, kRepeatEvery),
+      waiting_(clock, kWaitingIntervalUs, kWaitingGrowth) {}
 
 void LiveOutput::notice(const std::string& kind, const std::string& what, const std::string& remedy, bool trouble) {
   // Let a recovery always pass the filter; otherwise the last message could be about a problem that is over.
@@ -18,6 +21,10 @@ void LiveOutput::notice(const std::string& kind, const std::string& what, const 
   if (!suppressed.has_value()) return;
   const std::string more = *suppressed > 0 ? " (and " + std::to_string(*suppressed) + " more like this)" : "";
   box_.tell(SourceNotice{{what + more, source_, remedy}, trouble});
+}
+
+void LiveOutput::await(const std::string& kind, const std::string& what, const std::string& remedy) {
+  if (waiting_.admit(kind)) box_.tell(SourceNotice{{what, source_, remedy}, true});
 }
 
 void LiveOutput::skip(const std::string& what, const std::string& remedy) {

@@ -22,6 +22,10 @@ class LiveOutput {
   /// Sends a message to the user. A problem (`trouble`) of a kind that was reported within the last two seconds is
   /// suppressed and counted.
   void notice(const std::string& kind, const std::string& what, const std::string& remedy = "", bool trouble = true);
+  /// Tells the user what the thread waits for: at once, after 3 s, and then after four times as long each, until
+  /// end_waiting().
+  void await(const std::string& kind, const std::string& what, const std::string& remedy);
+  void end_waiting() { waiting_.reset(); }
   /// Reports a frame that arrived but cannot be used.
   void skip(const std::string& what, const std::string& remedy);
 
@@ -38,7 +42,7 @@ class LiveOutput {
  private:
   const std::string source_;
   EventBox box_;
-  RepeatFilter filter_;
+  RepeatFilter filter_, waiting_;
   FramePool pool_;
   int last_index_ = -1;
   std::int64_t last_number_ = -1;

@@ -54,7 +54,7 @@ void LiveReader::connect() {
   const auto where = finder_.find();
   if (stop_) return;
   if (!where) {
-    output_.notice("absent", where.error().what, where.error().remedy);
+    output_.await("absent", where.error().what, where.error().remedy);
     return wait(backoff_.next());
   }
 
@@ -62,12 +62,13 @@ void LiveReader::connect() {
   auto sensor = OpenNiSensor::open(*where, params_);
   if (stop_) return;
   if (!sensor) {
-    output_.notice("not opened", *where + " " + sensor.error().what, sensor.error().remedy);
+    output_.await("not opened", *where + " " + sensor.error().what, sensor.error().remedy);
     finder_.distrust();
     return wait(backoff_.next());
   }
 
   // Report what was opened, and what it lacks.
+  output_.end_waiting();
   output_.notice("opened", "opened " + (*sensor)->description() + usb_port(*where), "", false);
   for (const std::string& shortfall : (*sensor)->shortfalls()) output_.notice(shortfall, "the sensor " + shortfall);
   session_ = std::make_unique<LiveSession>(std::move(*sensor), params_, output_, clock_, stop_);

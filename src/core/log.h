@@ -18,8 +18,9 @@ std::shared_ptr<spdlog::logger> make_silent_logger();
 /// A logger that suppresses repeated messages (see RepeatFilter).
 class RepeatLog {
  public:
-  RepeatLog(std::shared_ptr<spdlog::logger> logger, const Clock& clock, std::int64_t interval_us = 1'000'000)
-      : logger_(std::move(logger)), filter_(clock, interval_us) {}
+  RepeatLog(std::shared_ptr<spdlog::logger> logger, const Clock& clock, std::int64_t interval_us = 1'000'000,
+            int growth = 1)
+      : logger_(std::move(logger)), filter_(clock, interval_us, growth) {}
   void log(spdlog::level::level_enum level, const std::string& kind, const std::string& message);
   void warn(const std::string& kind, const std::string& message) { log(spdlog::level::warn, kind, message); }
   spdlog::logger& logger() { return *logger_; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -79,6 +80,26 @@ TEST_F(CopyFrames, NoticesOfTheSourceAreReported) {
   ListSource source({frame_event(0), SourceNotice{{"the sensor was unplugged", "", ""}}, frame_event(2)});
   EXPECT_EQ(copy(source, *writer("a")).written, 2);
   EXPECT_NE(report_.str().find("the sensor was unplugged"), std::string::npos);
+}
+
+TEST_F(CopyFrames, SaysLessAndLessOftenThatItWaits) {
+  class AbsentSensor : public FrameSource {
+   public:
+    explicit AbsentSensor(ManualClock& clock) : clock_(clock) {}
+    SourceEvent next(std::chrono::milliseconds) override {
+      clock_.advance(1'000'000);
+      return clock_.steady_us() < 200'000'000 ? SourceEvent(Timeout{}) : SourceEvent(EndOfStream{});
+    }
+    bool live() const override { return true; }
+    std::string name() const override { return "absent"; }
+
+   private:
+    ManualClock& clock_;
+  };
+  AbsentSensor source(clock_);
+  copy(source, *writer("a.lcmlog"));
+  const std::string said = report_.str();
+  EXPECT_EQ(std::ranges::count(said, '\n'), 3) << "at 3, 15 and 63 s\n" << said;
 }
 
 TEST_F(CopyFrames, SkippedFramesAreCountedAndReported) {

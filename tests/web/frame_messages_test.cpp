@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "app/view/log_index.h"
 #include "drivers/lcm/wire.h"
 #include "io/lcm/lcm_log_writer.h"
@@ -92,6 +94,19 @@ TEST(ShownHands, AreAsLargeAsTheTrackedHand) {
   const ViewSkinPtr skin = hands.skin_of(messages_at(1, TrackStatus::tracking, 1.2).state);
   ASSERT_TRUE(skin);
   EXPECT_NEAR(skin->profile()->hand_length(), 1.2 * test::adult_hand()->hand_length(), 1e-3);
+
+  // What is drawn has that size, too; behind the head and the counts come the positions, then the normals.
+  const std::vector<std::uint8_t> mean = ViewSkin(test::adult_hand()).bytes(), large = skin->bytes();
+  ASSERT_EQ(large.size(), mean.size());
+  const auto number = [](const std::vector<std::uint8_t>& bytes, std::size_t index) {
+    float value = 0;
+    std::memcpy(&value, bytes.data() + 16 + 4 * index, sizeof value);
+    return value;
+  };
+  std::uint32_t vertices = 0;
+  std::memcpy(&vertices, mean.data() + 8, sizeof vertices);
+  for (std::size_t i = 0; i < 6 * vertices; ++i) ASSERT_NEAR(number(large, i), 1.2 * number(mean, i), 1e-3) << i;
+  for (std::size_t i = 6 * vertices; i < 9 * vertices; ++i) ASSERT_EQ(number(large, i), number(mean, i)) << i;
 }
 
 TEST(LogIndex, PutsStatesInOrderAndFindsLostOnes) {

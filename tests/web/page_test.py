@@ -199,6 +199,18 @@ class Live(Page):
         self.browser.value("document.getElementById('tools').scrollLeft = 10000")
         self.assertEqual(self.browser.value(outside % "#screenshot"), [])
 
+    def test_a_small_screen_has_all_buttons_in_one_row(self):
+        self.open_with_hand(self.program)
+        for width in (1200, 1280, 1440):
+            self.browser.size(width, 800)
+            self.wait_for("(() => { document.querySelectorAll('#tools button').forEach((button) => { button.hidden = false; });"
+                          f" return innerWidth === {width} && document.getElementById('tools').clientHeight < 40; }})()")
+
+    def test_the_pose_of_the_frame_is_shown_unless_the_smoothed_one_is_asked_for(self):
+        self.open_with_hand(self.program)
+        self.assertFalse(self.browser.value(pressed("toggle", "smoothed")))
+        self.press("m", pressed("toggle", "smoothed"))
+
     def test_the_keyboard_does_what_the_buttons_do(self):
         self.open_with_hand(self.program)
         self.wait_for_hand()
@@ -206,7 +218,7 @@ class Live(Page):
         self.press("c", pressed("cloud", "scene"))
         for key, expected in [("2", pressed("view", "orbit")), ("3", pressed("view", "camera")),
                               ("1", pressed("view", "follow")), ("e", pressed("toggle", "ellipsoids")),
-                              ("r", pressed("toggle", "raw")), ("p", pressed("picture", "depth")),
+                              ("m", pressed("toggle", "smoothed")), ("p", pressed("picture", "depth")),
                               ("?", "document.getElementById('shortcuts').open"),
                               ("Escape", "!document.getElementById('shortcuts').open")]:
             self.press(key, expected)
@@ -227,6 +239,7 @@ class Live(Page):
         still = self.view()
         self.wait_until_more_is_captured()
         self.assertTrue((self.view() == still).all())
+        self.wait_for(f"{text('rate')} === '0'")  # frames come, but none is shown
         self.press("f", hidden("frozen"))
         self.until(lambda: (self.view() != still).any(), "it moves again")
 

@@ -56,8 +56,30 @@ TEST_F(ViewServerTest, SendsNoFrameBeforeItIsAsked) {
   show(1);
   show(2);
   EXPECT_EQ(server_->health().popped, 0);
-  client.send(R"({"type": "want"})");
+  client.send(R"({"type": "want", "window": 1})");
   EXPECT_EQ(next_number(client), 2) << "the newest one";
+}
+
+TEST_F(ViewServerTest, ABurstLosesNoFrames) {
+  for (const char* wish : {R"({"type": "want"})", R"({"type": "want", "window": 12, "rate": 1000})"}) {
+    SocketClient client(port());
+    client.send(wish);
+    wait_until_heard(client);
+    for (int number = 1; number <= 12; ++number) show(number);
+    for (int number = 1; number <= 12; ++number) ASSERT_EQ(next_number(client), number) << wish;
+  }
+  EXPECT_EQ(server_->health().dropped, 0);
+}
+
+TEST_F(ViewServerTest, SendsNoMoreThanTheRateThatIsWished) {
+  SocketClient client(port());
+  client.send(R"({"type": "want", "rate": 0.1})");
+  wait_until_heard(client);
+  show(1);
+  EXPECT_EQ(next_number(client), 1);
+  for (int number = 2; number <= 12; ++number) show(number);
+  EXPECT_EQ(server_->health().popped, 1);
+  EXPECT_EQ(server_->health().depth, 1u) << "the newest one, which waits for its time";
 }
 
 TEST_F(ViewServerTest, SendsTheNewestFrameToAClientThatIsSlow) {

@@ -103,10 +103,8 @@ class Copy {
   }
 
   bool wait() {
-    if (result_.written == 0 && seconds_since(shown_us_) >= 3) {
+    if (result_.written == 0 && seconds_since(start_us_) >= 3 && waiting_.admit("frames"))
       say("waiting for frames from " + source_.name());
-      shown_us_ = clock_.steady_us();
-    }
     return true;
   }
 
@@ -139,7 +137,7 @@ class Copy {
   const CopyOptions& options_;
   const Clock& clock_;
   std::ostream& report_;
-  RepeatFilter filter_{clock_, 1'000'000};
+  RepeatFilter filter_{clock_, 1'000'000}, waiting_{clock_, kWaitingIntervalUs*kWaitingGrowth, kWaitingGrowth};
   CopyResult result_;
   std::int64_t start_us_ = 0, shown_us_ = 0, gaps_ = 0;
   std::map<std::string, std::int64_t> last_numbers_;  // number of the last frame of each sensor

@@ -108,6 +108,7 @@ class TrackRun {
   const ObjectWatcher watch_objects_;
   SystemClock clock_;
   RepeatLog log_;
+  RepeatLog waiting_{log_.shared_logger(), clock_, kWaitingIntervalUs, kWaitingGrowth};
   ServiceManager service_{clock_};
   std::stop_source stop_;
   PendingParams pending_;
@@ -226,7 +227,7 @@ Step TrackRun::add(Result<std::unique_ptr<Sink>> sink) {
 Step TrackRun::await_readers() {
   const auto wait = [&](const std::string& path, PipeReaders::Behind behind) {
     return readers_.wait_for(path, behind, stop_.get_token(), [&] {
-      log_.warn("reader of " + path, "waiting for a program to read the pipe " + path);
+      waiting_.warn("reader of " + path, "waiting for a program to read the pipe " + path);
       service_.ready("waiting for a reader of " + path);
       service_.alive();
     });
@@ -325,7 +326,7 @@ auto TrackRun::connect(Open open, bool live) -> decltype(open()) {
     auto opened = open();
     if (opened || !live || !LcmBus::is_network(options_.lcm_url) || stop_.stop_requested()) return opened;
     if (LcmBus::open(options_.lcm_url)) return open();  // the network is available, or the error has another cause
-    log_.warn("LCM", opened.error().message() + "; trying again every second");
+    waiting_.warn("LCM", opened.error().message() + "; trying again every second");
     service_.ready("waiting for the LCM network");
     service_.alive();
     std::unique_lock lock(mutex);

@@ -50,15 +50,18 @@ MessageKind kind_of(std::int64_t hash) {
   return carries_frames(hash) ? MessageKind::frame : MessageKind::other;
 }
 
+void ShownHands::prepare() const {
+  for (const ViewSkinPtr& base : bases_) base->bytes();
+}
+
 ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {
   constexpr double kSameSize = 0.02;
   const std::size_t side = state.handedness == hand_state_t::LEFT ? 0 : 1;
-  const double size = state.has_pose ? relative_size(state, *profiles_[side]) : sizes_[side];
+  const double size = state.has_pose ? relative_size(state, *bases_[side]->profile()) : sizes_[side];
   if (!(size > 0.3 && size < 3)) return skins_[side];
   if (std::abs(size - sizes_[side]) > kSameSize * size) {
     sizes_[side] = size;
-    skins_[side] =
-        std::make_shared<const ViewSkin>(std::make_shared<const HandProfile>(scaled(*profiles_[side], size)));
+    skins_[side] = std::make_shared<const ViewSkin>(bases_[side], size);
   }
   return skins_[side];
 }

@@ -42,11 +42,14 @@ struct ReceivedMessage {
 class ShownHands {
  public:
   /// `profiles` are indexed by Handedness; none may be null.
-  explicit ShownHands(std::array<std::shared_ptr<const HandProfile>, 2> profiles) : profiles_(std::move(profiles)) {}
+  explicit ShownHands(const std::array<std::shared_ptr<const HandProfile>, 2>& profiles)
+      : bases_{std::make_shared<const ViewSkin>(profiles[0]), std::make_shared<const ViewSkin>(profiles[1])} {}
+  /// Makes the skins of the profiles, which takes tens of milliseconds, so that no frame waits for that later.
+  void prepare() const;
   ViewSkinPtr skin_of(const hand_state_t& state);
 
  private:
-  std::array<std::shared_ptr<const HandProfile>, 2> profiles_;
+  std::array<ViewSkinPtr, 2> bases_;  // of the profiles
   std::array<ViewSkinPtr, 2> skins_;
   std::array<double, 2> sizes_{};  // sizes of the skins relative to the profiles
 };

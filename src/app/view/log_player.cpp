@@ -6,7 +6,8 @@
 
 namespace barehand {
 namespace {
-constexpr double kLongestGap = 2.0;  // longest pause [s]; longer pauses in a log are shortened to this
+constexpr double kLongestGap = 2.0;              // longest pause [s]; longer pauses in a log are shortened to this
+constexpr std::int64_t kMostBehindUs = 250'000;  // frames that are due for longer than this are left out [us]
 constexpr double kSlowest = 0.01, kFastest = 100;
 }  // namespace
 
@@ -69,7 +70,9 @@ bool LogPosition::advance(std::int64_t now_us) {
   bool moved = !started_;
   if (!started_) shown_us_ = now_us;
   started_ = true;
-  for (auto due = due_us(); due && *due <= now_us; due = due_us()) {
+
+  // A frame that waits to be shown goes first. Of later ones every one is shown, unless playing is far behind.
+  for (auto due = due_us(); due && (*due <= now_us - kMostBehindUs || (!moved && *due <= now_us)); due = due_us()) {
     shown_us_ = *due;
     ++frame_;
     moved = true;

@@ -18,8 +18,9 @@ class LogPosition {
   void follow(const PlayerCommand& command, std::int64_t now_us);
   /// Call it while no client is connected: the position stays, and the current frame is due at `now_us`.
   void wait(std::int64_t now_us) { go_to(frame_, now_us); }
-  /// Moves to the frame to be shown at `now_us` (steady clock). Returns whether it must be shown, since it changed or
-  /// was not shown yet.
+  /// Moves to the frame to be shown at `now_us` (steady clock): the next one that is due, or a later one if playing is
+  /// more than a quarter of a second behind. Returns whether it must be shown, since it changed or was not shown yet.
+  /// Call it again until due_us() is in the future.
   bool advance(std::int64_t now_us);
   /// Time by the steady clock at which the next frame is due; none if the log is not playing.
   std::optional<std::int64_t> due_us() const;

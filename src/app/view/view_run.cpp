@@ -33,7 +33,9 @@ Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
     if (!hands) return tl::unexpected(hands.error());
     for (const NamedHand& hand : *hands) profiles[static_cast<std::size_t>(hand.profile->handedness)] = hand.profile;
   }
-  return ShownHands(profiles);
+  ShownHands shown(profiles);
+  shown.prepare();
+  return shown;
 }
 
 /// What the user has chosen for the display: the skins of the hands, and the pose of the camera in the room.

@@ -32,7 +32,7 @@ void FrameClient::post(ViewFramePtr frame) {
   {
     const std::lock_guard lock(mutex_);
     if (gone_) return;
-    frames_.post(std::move(frame));
+    frames_.post(std::move(frame), room());
   }
   changed_.notify_all();
 }
@@ -76,7 +76,7 @@ void FrameClient::run() {
 
 /// How long the waiting frame must still wait; none: there is none, or it waits for the client.
 std::optional<std::int64_t> FrameClient::frame_delay_us() const {
-  return frames_.waiting() && !broken_ ? delay_us() : std::nullopt;
+  return frames_.any() && !broken_ ? delay_us() : std::nullopt;
 }
 
 bool FrameClient::has_due() const {

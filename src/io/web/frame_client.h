@@ -10,16 +10,17 @@
 #include <thread>
 #include <vector>
 
-#include "io/web/newest_frame.h"
 #include "io/web/replies.h"
+#include "io/web/waiting_frames.h"
 #include "io/web/web_server.h"
 
 namespace barehand {
 
 using StatusText = std::shared_ptr<const std::string>;  ///< JSON
 
-/// A client to which a thread of its own sends frames, statuses and answers. Of the frames that were not sent yet, only
-/// the newest is kept, and so of the statuses: a client that reads slowly or not at all delays no one else.
+/// A client to which a thread of its own sends frames, statuses and answers. Of the frames that must wait for the
+/// client only the newest is kept, and of the statuses too: a client that reads slowly or not at all delays no one
+/// else.
 class FrameClient : public WebPeer {
  public:
   /// Called on a thread of the server when the client is gone.
@@ -28,8 +29,8 @@ class FrameClient : public WebPeer {
   void start() final;
   bool receive(std::string_view text) final;
   void gone() final;
-  /// Queues a frame and returns at once; may be called on any thread. A waiting frame is replaced and counted as
-  /// dropped.
+  /// Queues a frame and returns at once; may be called on any thread. Waiting frames for which the client has no room
+  /// are dropped and counted.
   void post(ViewFramePtr frame);
   void post_status(StatusText status);
   /// Sends the data that are waiting, whether or not the client acknowledges them, and then asks the client to close
@@ -37,7 +38,7 @@ class FrameClient : public WebPeer {
   void end(const Farewell& farewell);
   /// Whether the last status has been sent, or the connection is broken so that nothing can be sent.
   bool is_told() const;
-  /// Counts the frames of this client, as of a queue with a capacity of one.
+  /// Counts the frames of this client.
   QueueHealth health() const;
 
  protected:
@@ -48,8 +49,10 @@ class FrameClient : public WebPeer {
   /// Sends a frame; called on the sending thread. Returns false if nothing more can be sent.
   virtual bool send_frame(const ViewFrame& frame) = 0;
   /// How long a frame must still wait before it may be sent [us]; none: until the client asks for it. Called with the
-  /// mutex locked, and so is on_frame().
+  /// mutex locked, and so are room() and on_frame().
   virtual std::optional<std::int64_t> delay_us() const { return 0; }
+  /// How many frames may be sent at once, without waiting for the client or for time to pass.
+  virtual std::size_t room() const { return WaitingFrames::kMost; }
   /// Called when a frame is taken to be sent.
   virtual void on_frame() {}
   /// Whether no more frames will come, so that the last one need not wait for acknowledgements.
@@ -57,7 +60,7 @@ class FrameClient : public WebPeer {
 
   WebSocket socket_;
   mutable std::mutex mutex_;  // protects the members below, except for the thread
-  NewestFrame frames_;
+  WaitingFrames frames_;
   Replies replies_;
 
  private:

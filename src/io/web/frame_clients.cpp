@@ -48,7 +48,6 @@ bool FrameClients::are_told() const {
 
 void FrameClients::add_health(QueueHealth& all) const {
   const std::lock_guard lock(mutex_);
-  all.capacity += clients_.size();
   add_counts(gone_, all);
   for (const FrameClient* client : clients_) add_counts(client->health(), all);
 }

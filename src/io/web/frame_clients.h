@@ -24,7 +24,7 @@ class FrameClients {
   void end(const Farewell& farewell);
   /// Whether FrameClient::is_told() holds for all clients.
   bool are_told() const;
-  /// Adds the counts of frames of all clients since the start to `all`, and one frame per client to its capacity.
+  /// Adds the counts of frames of all clients since the start to `all`, and the capacities of those that are connected.
   void add_health(QueueHealth& all) const;
 
  private:

@@ -9,6 +9,12 @@ namespace barehand {
 namespace {
 // Minimum time between two transmissions of a hand's skin, which changes often while its profile is being learnt [us].
 constexpr std::int64_t kSkinPeriodUs = 2'000'000;
+// A frame that comes late leaves the next ones less time. Within this time [us] they may catch up with the rate that
+// the client wishes, so that a source of this very rate loses none.
+constexpr std::int64_t kCatchUpUs = 250'000;
+
+/// The shortest mean time between frames [us], a tenth below the wish, since clocks differ.
+std::int64_t interval_us(const ViewSettings& settings) { return static_cast<std::int64_t>(1e6 / settings.rate * 0.9); }
 }  // namespace
 
 ViewClient::ViewClient(WebSocket socket, const Clock& clock, Handlers handlers)
@@ -25,6 +31,7 @@ void ViewClient::execute(std::string_view text) {
     settings_ = *settings;
     under_way_ = 0;
     next_at_us_ = 0;
+    frames_.keep(room());
 
     // Send the last frame again, so that the client gets what it has requested even if no frame follows (a paused log).
     frames_.repeat();
@@ -53,9 +60,18 @@ std::optional<std::int64_t> ViewClient::delay_us() const {
   return std::max<std::int64_t>(0, next_at_us_ - clock_.steady_us());
 }
 
+std::size_t ViewClient::room() const {
+  if (!settings_ || is_ending()) return WaitingFrames::kMost;
+  const std::int64_t now_us = clock_.steady_us();
+  const std::int64_t spare_us = std::min(now_us - next_at_us_, kCatchUpUs);
+  std::int64_t frames = spare_us < 0 ? 0 : 1 + spare_us / interval_us(*settings_);
+  if (settings_->window > 0) frames = std::min<std::int64_t>(frames, settings_->window - under_way_);
+  return static_cast<std::size_t>(std::max<std::int64_t>(frames, 0));
+}
+
 void ViewClient::on_frame() {
   if (settings_->window > 0) ++under_way_;
-  next_at_us_ = clock_.steady_us() + static_cast<std::int64_t>(1e6 / settings_->rate * 0.9);
+  next_at_us_ = std::max(next_at_us_, clock_.steady_us() - kCatchUpUs) + interval_us(*settings_);
 }
 
 bool ViewClient::send_frame(const ViewFrame& frame) {

@@ -29,6 +29,7 @@ class ViewClient : public FrameClient {
   Result<void> follow(const ViewRequest& request);
   void reply(const Error& error);
   std::optional<std::int64_t> delay_us() const override;
+  std::size_t room() const override;
   void on_frame() override;
   bool send_frame(const ViewFrame& frame) override;
   void write_new_skins(const ViewFrame& frame);

@@ -49,7 +49,8 @@ class ViewServer {
   /// Sets the reason that clients get for the closed connection when the server is destroyed. The default says that the
   /// program was stopped.
   void set_farewell(Farewell farewell) { farewell_ = std::move(farewell); }
-  /// Counts the frames for all clients together since the start. The capacity is one frame per client.
+  /// Counts the frames for all clients together since the start. The capacity is that of the clients that are
+  /// connected.
   QueueHealth health() const;
 
  private:

@@ -1,6 +1,8 @@
 // Encodes the skin of a hand profile for the live page.
 #include "io/web/view_skin.h"
 
+#include <cstring>
+
 #include "hand/skin.h"
 #include "io/web/view_bytes.h"
 
@@ -40,10 +42,25 @@ std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
   return bytes;
 }
 
+/// A chunk whose positions are scaled; normals, weights and triangles stay.
+std::vector<std::uint8_t> scaled_chunk(std::vector<std::uint8_t> bytes, double size) {
+  constexpr std::size_t kHead = 8, kCounts = 8;  // of the chunk, and the numbers of vertices and triangles
+  std::uint32_t vertices = 0;
+  std::memcpy(&vertices, bytes.data() + kHead, sizeof vertices);
+  std::uint8_t* at = bytes.data() + kHead + kCounts;
+  for (std::size_t i = 0; i < 6 * std::size_t{vertices}; ++i, at += sizeof(float)) {
+    float coordinate = 0;
+    std::memcpy(&coordinate, at, sizeof coordinate);
+    coordinate *= static_cast<float>(size);
+    std::memcpy(at, &coordinate, sizeof coordinate);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 const std::vector<std::uint8_t>& ViewSkin::bytes() const {
-  std::call_once(made_, [this] { bytes_ = skin_chunk(*profile_); });
+  std::call_once(made_, [this] { bytes_ = base_ ? scaled_chunk(base_->bytes(), size_) : skin_chunk(*profile_); });
   return bytes_;
 }
 
