@@ -22,14 +22,12 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Parameters with which the hand is never lost, no search result is convincing, and quick searches try only an upright
-/// palm.
+/// Parameters with which the hand is never lost, no search result is convincing, and quick searches are thorough.
 TrackerParams stubborn_tracker() {
   TrackerParams params = test::quick_tracker();
   params.loss.lost_score = 0.1;
   params.choice.confident_score = 0;
-  SearchEffort& quick = params.initialiser.quick;
-  quick.in_plane = quick.rolls = quick.pitches = quick.shapes = 1;
+  params.initialiser.quick = params.initialiser.full;
   return params;
 }
 
@@ -62,7 +60,7 @@ class UpsideDown : public testing::Test {
 };
 
 TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
-  for (int start = 0; start < 3; ++start) {  // a count that is not reset would make the third search a quick one
+  for (int start = 0; start < 3; ++start) {  // a count that is not reset would delay the second search
     tracker_.apply(ResetTracker{});
     tracker_.apply(StartAt{upright_});
     for (int i = 1; i < (params_.ambiguous_search_every + 1) / 2; ++i)
