@@ -13,8 +13,8 @@ KNOWN = {
     *(f"{what}_{tenth}" for what in ("stated", "found") for tenth in range(10)),
     # From bench: frames per second, times in ms, memory in MB; for a sweep, its values and the CPU times.
     "fps", "cpu", "dropped", "first_pose", "peak", "stored", "latency_p50", "latency_p95", "latency_p99", "values",
-    # From measure_python_client.py: numbers of frames.
-    "sent", "heard",
+    # From measure_python_client.py: numbers of frames, and of hands in those that were heard.
+    "sent", "heard", "hands",
     # From measure_viewers.py: 99 % and median of capture to publication [ms], and the ratio of the former; frames per
     # second that a quick client receives (those that were tracked: "tracked" above); fraction of a core that the server
     # takes without clients [%]. From measure_page.py: pictures per second that a browser draws, and its CPU time for each
@@ -86,7 +86,8 @@ def of_report(report, label=None):
     elif cases:
         figures.update(of_case(cases[0]))
     if client := report.get("client"):
-        figures.update({"sent": client["sent"], "heard": client["heard"], "cpu": client["cpu_ms_per_frame"]})
+        figures.update({"sent": client["sent"], "heard": client["heard"], "hands": client["hands"],
+                        "cpu": client["cpu_ms_per_frame"]})
     figures.update(report.get("viewers", {}))
     if not figures:
         raise KeyError(f"nothing is called {label}" if label else "the report has no figures")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures whether the Python client receives every frame. The frames of a log of hand states are sent repeatedly and at a
-given rate, by lcm-logplayer over UDP, or by `barehand view` over its WebSocket; a client evaluates every outlet of every
+"""Measures whether the Python client receives every frame. The frames of a log in which all its hands have a pose are sent
+repeatedly and at a given rate, by lcm-logplayer over UDP, or by `barehand view` over its WebSocket; a client evaluates every outlet of every
 hand. Prints the numbers of frames that were sent, received and lost, and the client's processor time.
   measure_python_client.py [--page] [--json FILE] STATES.lcmlog [RATE] [SECONDS]
 A log of `barehand track --states-log`; 60 Hz, 60 s. Needs the Python package (PYTHONPATH=build/release/clients/python), and
@@ -25,12 +25,15 @@ OUTLETS = ("openxr26", "webxr25", "mano21", "glove22", "joint_angles", "confiden
 
 
 def frames_of(path):
-    """The messages of each frame of a log, [(channel, bytes), ...]. Messages of one frame have the same time stamp."""
+    """The messages of each frame of a log, [(channel, bytes), ...], without the frames in which fewer hands have a pose than
+    in others. Messages of one frame have the same time stamp."""
+    poses = {hands.utime: len(hands) for hands in barehand.hands(path)}
     frames = {}
     for stamp, channel, data in log.events(path, Counts()):
         if channel.endswith((b"HAND_STATE", b"GLOVE_STATE", b"HAND_JOINTS")):
             frames.setdefault(stamp, []).append((channel, data))
-    return list(frames.values())
+    most = max(poses.values())
+    return [frame for stamp, frame in frames.items() if poses[stamp] == most]
 
 
 def write_repeated(frames, path, rate, seconds):
@@ -91,7 +94,7 @@ def main(options):
           f"not heard: {live.counts.trouble() or 'nothing'}; {busy:.2f} ms of processor time a frame")
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"client": {"sent": sent, "heard": heard, "cpu_ms_per_frame": busy}}, file)
+            json.dump({"client": {"sent": sent, "heard": heard, "hands": hands_heard, "cpu_ms_per_frame": busy}}, file)
 
 
 def options_of_command_line():
