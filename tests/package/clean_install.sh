@@ -61,7 +61,7 @@ inside barehand track --config paper --print-config >/dev/null || die "it does n
 say "the program for processors without AVX2"
 older=(env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2)
 inside "${older[@]}" barehand doctor >"$work/doctor_older" || die "it does not run"
-grep -q 'the program does without' "$work/doctor_older" || die "the loader took the program for AVX2"
+grep -q 'the program uses neither AVX2' "$work/doctor_older" || die "the loader took the program for AVX2"
 inside "${older[@]}" barehand track --source sim:fist,frames=10 --no-publish --result /tmp/older.csv >/dev/null
 if grep -q 'the program uses AVX2' "$work/doctor"; then
   paste -d, "$root/tmp/fist.csv" "$root/tmp/older.csv" | awk -F, 'NR > 1 {

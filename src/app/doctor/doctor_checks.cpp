@@ -87,7 +87,7 @@ Finding check_processor() {
   const int cores = available_cores();
   const std::string text = std::to_string(cores) + (cores == 1 ? " core" : " cores") +
                            (avx2 ? " with AVX2" : " without AVX2") + "; the program " +
-                           (kInstructionSet ? std::string("uses ") + kInstructionSet : "uses neither");
+                           (kInstructionSet ? std::string("uses ") + kInstructionSet : "uses neither AVX2 nor AVX-512");
   if (cores < 2) return {Level::warning, "processor", text, "two cores are needed to track at the rate of a sensor"};
   if (avx2 && !kInstructionSet)
     return {Level::warning, "processor", text, "a build with -DBAREHAND_ARCH=x86-64-v3 tracks about 1.5 times as fast"};
