@@ -51,7 +51,7 @@ MessageKind kind_of(std::int64_t hash) {
 }
 
 void ShownHands::prepare() const {
-  for (const ViewSkinPtr& base : bases_) base->bytes();
+  for (const ViewSkinPtr& base : bases_) base->mesh();
 }
 
 ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {

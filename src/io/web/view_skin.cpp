@@ -1,9 +1,6 @@
 // Encodes the skin of a hand profile for the live page.
 #include "io/web/view_skin.h"
 
-#include <cstring>
-
-#include "hand/skin.h"
 #include "io/web/view_bytes.h"
 
 namespace barehand {
@@ -15,15 +12,16 @@ void put_vector(ChunkWriter& out, const Eigen::Vector3f& v) {
   for (int i = 0; i < 3; ++i) out.put<float>(v[i]);
 }
 
-std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
-  // Make the skin with a mesh that is coarse enough to be sent.
+Skin coarse_skin(const HandProfile& profile) {
   Skin skin = make_skin(profile, kCell);
-  if (profile.scanned_skin) skin = coarsened(skin, kCell);
+  return profile.scanned_skin ? coarsened(skin, kCell) : skin;
+}
 
+std::vector<std::uint8_t> skin_chunk(Handedness side, const Skin& skin) {
   // Write the number of vertices and triangles.
   std::vector<std::uint8_t> bytes;
   ChunkWriter out(bytes);
-  out.begin('S', static_cast<int>(profile.handedness));
+  out.begin('S', static_cast<int>(side));
   out.put(static_cast<std::uint32_t>(skin.vertices.size()));
   out.put(static_cast<std::uint32_t>(skin.triangles.size()));
 
@@ -42,25 +40,15 @@ std::vector<std::uint8_t> skin_chunk(const HandProfile& profile) {
   return bytes;
 }
 
-/// A chunk whose positions are scaled; normals, weights and triangles stay.
-std::vector<std::uint8_t> scaled_chunk(std::vector<std::uint8_t> bytes, double size) {
-  constexpr std::size_t kHead = 8, kCounts = 8;  // of the chunk, and the numbers of vertices and triangles
-  std::uint32_t vertices = 0;
-  std::memcpy(&vertices, bytes.data() + kHead, sizeof vertices);
-  std::uint8_t* at = bytes.data() + kHead + kCounts;
-  for (std::size_t i = 0; i < 6 * std::size_t{vertices}; ++i, at += sizeof(float)) {
-    float coordinate = 0;
-    std::memcpy(&coordinate, at, sizeof coordinate);
-    coordinate *= static_cast<float>(size);
-    std::memcpy(at, &coordinate, sizeof coordinate);
-  }
-  return bytes;
-}
-
 }  // namespace
 
+const Skin& ViewSkin::mesh() const {
+  std::call_once(meshed_, [this] { mesh_ = base_ ? scaled(base_->mesh(), size_) : coarse_skin(*profile_); });
+  return mesh_;
+}
+
 const std::vector<std::uint8_t>& ViewSkin::bytes() const {
-  std::call_once(made_, [this] { bytes_ = base_ ? scaled_chunk(base_->bytes(), size_) : skin_chunk(*profile_); });
+  std::call_once(written_, [this] { bytes_ = skin_chunk(profile_->handedness, mesh()); });
   return bytes_;
 }
 
