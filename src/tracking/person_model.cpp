@@ -4,18 +4,21 @@
 #include <utility>
 
 namespace barehand {
+namespace {
+
+std::shared_ptr<const Skin> skin_of(const HandProfile& profile, const TrackerParams& params) {
+  return std::make_shared<const Skin>(make_skin(profile, params.skin_cell));
+}
+
+}  // namespace
 
 PersonModel::PersonModel(const TrackerContext& context, std::shared_ptr<const HandProfile> given,
                          std::shared_ptr<const Skin> skin)
     : context_(context),
       given_(std::move(given)),
-      given_skin_(skin ? std::move(skin) : skin_of(*given_)),
+      given_skin_(skin ? std::move(skin) : skin_of(*given_, context.params)),
       model_(model_of(given_, given_skin_)) {
   if (context_.params.shape_fit.enabled) start_learning();
-}
-
-std::shared_ptr<const Skin> PersonModel::skin_of(const HandProfile& profile) const {
-  return std::make_shared<const Skin>(make_skin(profile, context_.params.skin_cell));
 }
 
 std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfile> profile,
@@ -53,7 +56,7 @@ void PersonModel::reset() {
 
 void PersonModel::use(std::shared_ptr<const HandProfile> given) {
   given_ = std::move(given);
-  given_skin_ = skin_of(*given_);
+  given_skin_ = skin_of(*given_, context_.params);
   model_ = model_of(given_, given_skin_);
   scan_.reset();
   reset();
@@ -61,11 +64,8 @@ void PersonModel::use(std::shared_ptr<const HandProfile> given) {
 
 void PersonModel::change(const TrackerParams& params, std::shared_ptr<Observer> observer) {
   // Make everything before anything changes.
-  const auto skin_with = [&](const HandProfile& hand) {
-    return std::make_shared<const Skin>(make_skin(hand, params.skin_cell));
-  };
-  std::shared_ptr<const Skin> given_skin = given_skin_, skin = skin_with(*model_->profile);
-  if (params.skin_cell != context_.params.skin_cell) given_skin = skin_with(*given_);
+  std::shared_ptr<const Skin> given_skin = given_skin_, skin = skin_of(*model_->profile, params);
+  if (params.skin_cell != context_.params.skin_cell) given_skin = skin_of(*given_, params);
   auto model = std::make_unique<HandModel>(params, model_->profile, skin, context_.workers, std::move(observer));
 
   given_skin_ = std::move(given_skin);

@@ -52,7 +52,6 @@ class PersonModel {
   void change(const TrackerParams& params, std::shared_ptr<Observer> observer);
 
  private:
-  std::shared_ptr<const Skin> skin_of(const HandProfile& profile) const;
   std::unique_ptr<HandModel> model_of(std::shared_ptr<const HandProfile> profile,
                                       std::shared_ptr<const Skin> skin) const;
   void start_learning();

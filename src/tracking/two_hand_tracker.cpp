@@ -47,10 +47,12 @@ void TwoHandTracker::change(const TrackerParams& params) {
 void TwoHandTracker::renew_verifiers() {
   verifiers_.clear();
   // With two hands, the verifiers log nothing: both sides are tracked, so none is wrong.
-  for (const auto& hand : hands_)
-    if (hand)
-      verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *hand->view().profile, hand->view().skin, seed_,
-                                                             workers_, count() == 1 ? log_ : make_silent_logger()));
+  for (const auto& hand : hands_) {
+    if (!hand) continue;
+    const TrackView track = hand->view();
+    verifiers_.push_back(std::make_unique<ProfileVerifier>(params_, *track.profile, track.skin, seed_, workers_,
+                                                           count() == 1 ? log_ : make_silent_logger()));
+  }
 }
 
 void TwoHandTracker::couple_with(std::span<const NearbyObject> objects) {

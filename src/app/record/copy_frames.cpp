@@ -11,6 +11,8 @@
 namespace barehand {
 namespace {
 
+constexpr const char* kWaiting = "waiting";  // kind of the messages about a source without frames
+
 /// One run of copy_frames.
 class Copy {
  public:
@@ -19,6 +21,7 @@ class Copy {
 
   CopyResult run(const std::atomic<bool>& stop) {
     start_us_ = shown_us_ = clock_.steady_us();
+    waiting_.admit(kWaiting);  // it is not said at once, but after the first interval
     while (!finished()) {
       if (stop) {
         result_.stopped = true;
@@ -103,8 +106,7 @@ class Copy {
   }
 
   bool wait() {
-    if (result_.written == 0 && seconds_since(start_us_) >= 3 && waiting_.admit("frames"))
-      say("waiting for frames from " + source_.name());
+    if (result_.written == 0 && waiting_.admit(kWaiting)) say("waiting for frames from " + source_.name());
     return true;
   }
 
@@ -137,7 +139,7 @@ class Copy {
   const CopyOptions& options_;
   const Clock& clock_;
   std::ostream& report_;
-  RepeatFilter filter_{clock_, 1'000'000}, waiting_{clock_, kWaitingIntervalUs*kWaitingGrowth, kWaitingGrowth};
+  RepeatFilter filter_{clock_, 1'000'000}, waiting_{clock_, kWaitingIntervalUs, kWaitingGrowth};
   CopyResult result_;
   std::int64_t start_us_ = 0, shown_us_ = 0, gaps_ = 0;
   std::map<std::string, std::int64_t> last_numbers_;  // number of the last frame of each sensor
