@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hand/rendering/hand_renderer.h"
+#include "observe/detection.h"
 #include "support/adult_hand.h"
 #include "support/scene.h"
 
@@ -79,6 +80,21 @@ inline std::array<Eigen::Vector3d, kLandmarkCount> landmarks(const HandProfile& 
     points[landmark_of(finger, 3)] = distal_end(profile, pose, segment_of(finger, 2));
   }
   return points;
+}
+
+/// A hand as the networks detect it: its joints with a standard deviation of `deviation` [m], all labels hand with the
+/// log odds `labels`.
+inline DetectedHand detected_hand(const HandProfile& profile, const HandPose& pose, double right_log_odds,
+                                  double deviation = 0.005, double palm = 0.9, float labels = 6) {
+  DetectedHand hand;
+  const auto joints = landmarks(profile, pose);
+  for (int k = 0; k < kLandmarkCount; ++k)
+    hand.joints[k] = {joints[k], deviation * deviation * Eigen::Matrix3d::Identity()};
+  hand.palm = palm;
+  hand.right_log_odds = right_log_odds;
+  hand.labels.label.reset(1, 1, SurfaceLabel::hand);
+  hand.labels.hand_log_odds.reset(1, 1, labels);
+  return hand;
 }
 
 }  // namespace barehand::test

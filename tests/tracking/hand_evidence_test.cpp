@@ -37,10 +37,7 @@ class CuesOfDetection : public testing::TestWithParam<Handedness> {
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand(GetParam());
   const HandPose pose_ = test::facing_pose(*profile_, 0.5, 0.3);
   DetectedHand detected() const {
-    DetectedHand hand;
-    const auto joints = test::landmarks(*profile_, pose_);
-    for (int k = 0; k < kLandmarkCount; ++k) hand.joints[k] = {joints[k], 1e-4 * Eigen::Matrix3d::Identity()};
-    hand.right_log_odds = GetParam() == Handedness::right ? 3 : -3;
+    DetectedHand hand = test::detected_hand(*profile_, pose_, GetParam() == Handedness::right ? 3 : -3, 0.01, 0);
     hand.labels.label.reset(2, 1, SurfaceLabel::hand);
     hand.labels.hand_log_odds.reset(2, 1, 4);
     hand.labels.label.at(1, 0) = SurfaceLabel::arm;

@@ -87,14 +87,8 @@ TEST_F(ProfileVerification, GoesOnAfterAFrameWithoutTheHand) {
 TEST_F(ProfileVerification, WhereTheNetworksAreSureOfTheSideTheStartWaitsForNoSearch) {
   const auto detected_with = [&](double right_log_odds) {
     auto observation = test::stamped(*left_hand_, utime_ += 33'000);
-    auto hand = std::make_shared<DetectedHand>();
-    const auto joints = test::landmarks(*left_, test::facing_pose(*left_, 0.5, 0.5));
-    for (int k = 0; k < kLandmarkCount; ++k) hand->joints[k] = {joints[k], 2.5e-5 * Eigen::Matrix3d::Identity()};
-    hand->palm = 0.9;
-    hand->labels.label.reset(1, 1, SurfaceLabel::hand);
-    hand->labels.hand_log_odds.reset(1, 1, 6.f);
-    hand->right_log_odds = right_log_odds;
-    observation->detected = std::move(hand);
+    observation->detected = std::make_shared<const DetectedHand>(
+        test::detected_hand(*left_, test::facing_pose(*left_, 0.5, 0.5), right_log_odds));
     EXPECT_FALSE(verifier_.is_detected_as_other_side(*observation));
     return verifier_.is_other_side(*observation, Effort::quick, 1, kBad);
   };

@@ -224,14 +224,8 @@ class StartOfDetectedHand : public TwoHandTrackerTest {
   static HandObservationPtr detected(const HandProfile& profile, double flexion, double palm = 0.9, float odds = 6) {
     const HandPose pose = test::facing_pose(profile, 0.5, flexion);
     const auto observation = test::observe_skin(make_blended_skin(profile, 0.004), pose);
-    DetectedHand hand;
-    const auto joints = test::landmarks(profile, pose);
-    for (int k = 0; k < kLandmarkCount; ++k) hand.joints[k] = {joints[k], 0.005 * 0.005 * Eigen::Matrix3d::Identity()};
-    hand.palm = palm;
-    hand.right_log_odds = 3;
-    hand.labels.label.reset(1, 1, SurfaceLabel::hand);
-    hand.labels.hand_log_odds.reset(1, 1, odds);
-    observation->detected = std::make_shared<const DetectedHand>(hand);
+    observation->detected =
+        std::make_shared<const DetectedHand>(test::detected_hand(profile, pose, 3, 0.005, palm, odds));
     return observation;
   }
   static TrackerParams params() {

@@ -30,6 +30,9 @@ class ViewServerTest : public testing::Test {
     content.number = number;
     server_->show(std::make_shared<const ViewFrame>(std::move(content)));
   }
+  void show(std::int64_t first, std::int64_t last) {
+    for (std::int64_t number = first; number <= last; ++number) show(number);
+  }
   /// Number of the next frame that a client hears of.
   static std::int64_t next_number(SocketClient& client) {
     const auto message = client.binary();
@@ -43,6 +46,11 @@ class ViewServerTest : public testing::Test {
       ASSERT_TRUE(text);
       if (nlohmann::json::parse(*text)["type"] == "error") return;
     }
+  }
+  /// Sends a client's wish, and waits until the server has heard it.
+  static void ask(SocketClient& client, const char* wish) {
+    client.send(wish);
+    wait_until_heard(client);
   }
 
   SystemClock clock_;
@@ -62,10 +70,10 @@ TEST_F(ViewServerTest, SendsNoFrameBeforeItIsAsked) {
 
 TEST_F(ViewServerTest, ABurstLosesNoFrames) {
   for (const char* wish : {R"({"type": "want"})", R"({"type": "want", "window": 12, "rate": 1000})"}) {
+    while (server_->clients() > 0) std::this_thread::yield();  // a second client would get the first one's last frame
     SocketClient client(port());
-    client.send(wish);
-    wait_until_heard(client);
-    for (int number = 1; number <= 12; ++number) show(number);
+    ask(client, wish);
+    show(1, 12);
     for (int number = 1; number <= 12; ++number) ASSERT_EQ(next_number(client), number) << wish;
   }
   EXPECT_EQ(server_->health().dropped, 0);
@@ -73,22 +81,20 @@ TEST_F(ViewServerTest, ABurstLosesNoFrames) {
 
 TEST_F(ViewServerTest, SendsNoMoreThanTheRateThatIsWished) {
   SocketClient client(port());
-  client.send(R"({"type": "want", "rate": 0.1})");
-  wait_until_heard(client);
+  ask(client, R"({"type": "want", "rate": 0.1})");
   show(1);
   EXPECT_EQ(next_number(client), 1);
-  for (int number = 2; number <= 12; ++number) show(number);
+  show(2, 12);
   EXPECT_EQ(server_->health().popped, 1);
   EXPECT_EQ(server_->health().depth, 1u) << "the newest one, which waits for its time";
 }
 
 TEST_F(ViewServerTest, SendsTheNewestFrameToAClientThatIsSlow) {
   SocketClient client(port());
-  client.send(R"({"type": "want", "window": 1, "rate": 1000})");
-  wait_until_heard(client);
+  ask(client, R"({"type": "want", "window": 1, "rate": 1000})");
   show(1);
   EXPECT_EQ(next_number(client), 1);
-  for (int number = 2; number <= 50; ++number) show(number);
+  show(2, 50);
   const QueueHealth stuck = server_->health();
   EXPECT_EQ(stuck.pushed, 50);
   EXPECT_EQ(stuck.popped, 1) << "it has not acknowledged the first";
@@ -100,8 +106,7 @@ TEST_F(ViewServerTest, SendsTheNewestFrameToAClientThatIsSlow) {
 
 TEST_F(ViewServerTest, SendsTheFrameAgainWhereTheWishChanges) {
   SocketClient client(port());
-  client.send(R"({"type": "want", "window": 1})");
-  wait_until_heard(client);
+  ask(client, R"({"type": "want", "window": 1})");
   show(7);
   EXPECT_EQ(next_number(client), 7);
   client.send(R"({"type": "want", "window": 1, "cloud": "scene"})");
@@ -115,8 +120,7 @@ TEST_F(ViewServerTest, WaitsForNoClientThatDoesNotRead) {
   // {"type":"want"}, with a mask of zeros.
   stuck.send(std::string("\x81\x8f\0\0\0\0", 6) + R"({"type":"want"})");
   SocketClient quick(port());
-  quick.send(R"({"type": "want", "window": 1, "rate": 1000})");
-  wait_until_heard(quick);
+  ask(quick, R"({"type": "want", "window": 1, "rate": 1000})");
 
   // Far more than the buffers of the operating system hold.
   ViewFrame::Content content;
@@ -138,8 +142,7 @@ TEST_F(ViewServerTest, AFloodOfRequestsHoldsUpNobody) {
   flood.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n") + "\r\n");
   ASSERT_EQ(test::status_of(flood.read(false)), 101);
   SocketClient quick(port());
-  quick.send(R"({"type": "want", "window": 1, "rate": 1000})");
-  wait_until_heard(quick);
+  ask(quick, R"({"type": "want", "window": 1, "rate": 1000})");
 
   // Wishes, commands and nonsense, with masks of zeros; none of the answers is read.
   const auto message = [](const std::string& text) {
@@ -161,9 +164,8 @@ TEST_F(ViewServerTest, AFloodOfRequestsHoldsUpNobody) {
 TEST_F(ViewServerTest, CountsClientsThatHaveGone) {
   {
     SocketClient client(port());
-    client.send(R"({"type": "want", "window": 1})");
-    wait_until_heard(client);
-    for (int number = 1; number <= 3; ++number) show(number);
+    ask(client, R"({"type": "want", "window": 1})");
+    show(1, 3);
     EXPECT_EQ(server_->clients(), 1);
   }
   while (server_->clients() > 0) std::this_thread::yield();
@@ -191,8 +193,7 @@ TEST_F(ViewServerTest, ALastWordReachesThoseWhoReadBeforeTheEnd) {
 
 TEST_F(ViewServerTest, TellsItsClientsWhyItEnds) {
   SocketClient page(port()), stranger(port(), "/", "foxglove.sdk.v1");
-  page.send(R"({"type": "want", "window": 1})");
-  wait_until_heard(page);
+  ask(page, R"({"type": "want", "window": 1})");
   ASSERT_TRUE(stranger.text());
   show(1);
   EXPECT_EQ(next_number(page), 1);
