@@ -10,8 +10,8 @@ constexpr double kSame = 0.05;  // a palm that is farther away than this is anot
 constexpr double kClearSide =
     3;  // log odds of the side from which on it may well be a hand: of most hands they are 4 to 20
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
-constexpr int kSkipFrom = 6;          // count from which on a place may be skipped: most hands are tracked before
-constexpr int kMaxUnlikelyCount = 12;
+constexpr int kSkipAfter = 6;   // count per search in which a place is skipped: most hands are tracked before
+constexpr int kMaxSkipped = 4;  // most searches in a row in which a place is skipped
 constexpr int kRemembered = 5;  // frames without a palm after which a place is forgotten
 
 double log_odds(double probability) { return std::log(probability / (1 - probability)); }
@@ -31,8 +31,7 @@ PalmHistory::Place* PalmHistory::find(const Eigen::Vector3d& palm) {
 
 bool PalmHistory::may_skip(const Eigen::Vector3d& palm, double probability) {
   Place* const place = find(palm);
-  if (!place || !place->unlikely || place->unlikely_count < kSkipFrom || place->last_examined != search_ - 1)
-    return false;
+  if (!place || !place->unlikely || search_ - place->last_examined > place->unlikely_count / kSkipAfter) return false;
   if (std::abs(log_odds(probability) - place->log_odds) >= kSameLogOdds) return false;
   place->last_palm = search_;
   return true;
@@ -46,7 +45,7 @@ void PalmHistory::examined(const Eigen::Vector3d& palm, double probability, cons
   place->last_palm = place->last_examined = search_;
   place->unlikely = !found || std::abs(found->right_log_odds) < kClearSide;
   place->unlikely_count =
-      place->unlikely ? std::min(kMaxUnlikelyCount, place->unlikely_count + 1) : place->unlikely_count / 2;
+      place->unlikely ? std::min(kSkipAfter * kMaxSkipped, place->unlikely_count + 1) : place->unlikely_count / 2;
 }
 
 }  // namespace barehand

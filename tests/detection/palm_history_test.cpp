@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,14 @@ TEST_F(PalmHistoryTest, WhatIsNoHandOrHasNoClearSideForLongIsExaminedInEverySeco
   EXPECT_EQ(frames(11, std::nullopt), "11111101010");
   places_ = {};
   EXPECT_EQ(frames(11, 0.5), "11111101010");
+}
+
+TEST_F(PalmHistoryTest, WhatStaysUnlikelyIsExaminedEverMoreRarely) {
+  frames(18, std::nullopt);
+  EXPECT_EQ(frames(9, std::nullopt), "001001001");
+  frames(200, std::nullopt);
+  const std::string later = frames(20, std::nullopt);
+  EXPECT_EQ(std::ranges::count(later, '1'), 4) << later;
 }
 
 TEST_F(PalmHistoryTest, AClearSideEndsTheWaiting) {
