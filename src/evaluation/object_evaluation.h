@@ -43,7 +43,8 @@ struct ObjectEvaluation {
   Distribution surface;            ///< mean distance of the stated surface's points from the true surface [m], as ADD-S
 };
 
-/// Compares over the frames of the truth. Error: no frame has both poses.
+/// Compares over the frames of the truth. Without any stated pose, the object was never found. Error: poses are stated,
+/// but in no frame of the truth.
 Result<ObjectEvaluation> evaluate_object(const ObjectTruthTable& truth, const ObjectPoses& stated,
                                          const ObjectMesh& mesh);
 

@@ -10,9 +10,9 @@ constexpr double kSame = 0.05;  // a palm that is farther away than this is anot
 constexpr double kClearSide =
     3;  // log odds of the side from which on it may well be a hand: of most hands they are 4 to 20
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
-constexpr int kSkipAfter = 6;   // count per search in which a place is skipped: most hands are tracked before
-constexpr int kMaxSkipped = 4;  // most searches in a row in which a place is skipped
-constexpr int kRemembered = 5;  // frames without a palm after which a place is forgotten
+constexpr int kSkipAfter = 6;         // count per search in which a place is skipped: most hands are tracked before
+constexpr int kMaxSkipped = 4;        // most searches in a row in which a place is skipped
+constexpr int kRemembered = 5;        // frames without a palm after which a place is forgotten
 
 double log_odds(double probability) { return std::log(probability / (1 - probability)); }
 

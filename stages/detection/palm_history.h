@@ -9,8 +9,8 @@
 namespace barehand {
 
 /// Remembers where the first network found palms and how likely it was a hand that the second network found there. A
-/// place that has been unlikely for a while is examined in every second search of the whole frame only, and after longer
-/// in every fifth at last, unless its palm has changed. This depends on the frames alone, not on time.
+/// place that has been unlikely for a while is examined in every second search of the whole frame only, and after
+/// longer in every fifth at last, unless its palm has changed. This depends on the frames alone, not on time.
 class PalmHistory {
  public:
   /// Call once per search of the whole frame, before the other functions.

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/lcm/layouts.h"
-#include "hand/contacts.h"
 #include "io/hand/hand_json.h"
 #include "io/hand/result_table.h"
 #include "io/lcm/lcm_log_writer.h"
@@ -37,6 +36,14 @@ class EvalCommand : public testing::Test {
       for (TableRow& row : frame.rows) row = {{offset, 0, 0.5}, {offset - 0.03, 0, 0.5}, 1};
       ASSERT_TRUE(writer->write(frame));
     }
+  }
+  /// A tetrahedron that lies in the camera for four frames.
+  void write_block() {
+    std::ofstream(folder_ / "block.obj") << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
+                                            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    std::ofstream truth(folder_ / "objects.csv");
+    truth << "utime,object,held,x,y,z,qw,qx,qy,qz\n";
+    for (int frame = 0; frame < 4; ++frame) truth << 1'000'000 + 100'000 * frame << ",block,0,0,0,0,1,0,0,0\n";
   }
   /// Runs the command line; `%` stands for the folder of the test.
   int run(std::string line) {
@@ -266,7 +273,7 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   // Four frames with an object 1 mm beside its place; in the last three, the message holds no pose.
   auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
   ASSERT_TRUE(log);
-  std::string objects = "utime,object,held,x,y,z,qw,qx,qy,qz\n", grasps = "utime,grasp\n";
+  std::string grasps = "utime,grasp\n";
   for (int frame = 0; frame < 4; ++frame) {
     object_state_t state{};
     state.utime = 1'000'000 + 100'000 * frame;
@@ -277,14 +284,11 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
     grasp_state_t grasp{};
     grasp.utime = state.utime;
     ASSERT_TRUE((*log)->send("GRASP_STATE", encode_message(grasp), grasp.utime));
-    objects += std::to_string(state.utime) + ",block,0,0,0,0,1,0,0,0\n";
     grasps += std::to_string(state.utime) + ",none\n";
   }
   ASSERT_TRUE((*log)->finish());
-  std::ofstream(folder_ / "objects.csv") << objects;
   std::ofstream(folder_ / "grasps.csv") << grasps;
-  std::ofstream(folder_ / "block.obj") << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
-                                          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  write_block();
 
   ASSERT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/objects.csv --json %/e.json"), 0)
       << err_;
@@ -292,20 +296,25 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   EXPECT_EQ(report["frames"], 4);
   EXPECT_EQ(report["stated"], 1);
   EXPECT_EQ(report["lost"], 3);
+}
 
-  // A log in which no known object is stated is refused.
-  log = LcmLogWriter::create(folder_ / "unknown.lcmlog", false);
+TEST_F(EvalCommand, EvaluatesTheRestWhereAnObjectWasNeverFound) {
+  auto log = LcmLogWriter::create(folder_ / "states.lcmlog", false);
   ASSERT_TRUE(log);
-  object_state_t unknown{};
-  unknown.object_id = kFirstUnknownObject;
-  unknown.orientation[0] = 1;
-  ASSERT_TRUE((*log)->send("OBJECT_STATE", encode_message(unknown), 1'000'000));
   grasp_state_t grasp{};
   grasp.utime = 1'000'000;
   ASSERT_TRUE((*log)->send("GRASP_STATE", encode_message(grasp), grasp.utime));
   ASSERT_TRUE((*log)->finish());
-  EXPECT_EQ(run("eval --states %/unknown.lcmlog --grasps %/grasps.csv --objects %/objects.csv"), 2);
-  EXPECT_THAT(err_, HasSubstr("holds no pose of a known object, but 1 of unknown ones"));
+  std::ofstream(folder_ / "grasps.csv") << "utime,grasp\n1000000,none\n";
+  write_block();
+
+  ASSERT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/objects.csv --json %/e.json"), 0)
+      << err_;
+  EXPECT_THAT(err_, HasSubstr("block is stated in none of the 4 frames"));
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  EXPECT_EQ(report["objects"][0]["stated"], 0);
+  EXPECT_EQ(report["objects"][0]["position_mm"]["count"], 0);
+  EXPECT_TRUE(report.contains("grasps"));
 }
 
 }  // namespace

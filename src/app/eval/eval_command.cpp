@@ -101,12 +101,20 @@ Result<void> check_written(const EvalOptions& o) {
   return check_outputs(recording, inputs, outputs, o.overwrite);
 }
 
-/// Reports results without any tracked hand. A table without rows is valid input, and the worst of results.
+/// Reports results without any tracked hand, and objects that were never found. These are valid input, and the worst of
+/// results.
 void say_untracked(const EvalReport& report) {
   for (const EvaluatedRun& run : report.runs)
     if (run.evaluation.untracked == run.evaluation.frames.size())
       std::fprintf(stderr, "barehand eval: %s: no hand was tracked in any of the %zu frames\n", run.result_path.c_str(),
                    run.evaluation.frames.size());
+  for (const ObjectEvaluation& object : report.objects)
+    if (object.stated == 0)
+      std::fprintf(
+          stderr,
+          "barehand eval: object %s is stated in none of the %zu frames: it was not found, or the states are of a "
+          "track without --object\n",
+          object.name.c_str(), object.frames);
 }
 
 std::string label_of(const EvalOptions& o, std::size_t i) {

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "barehand/object_state_t.hpp"
-#include "core/format.h"
 #include "drivers/lcm/layouts.h"
-#include "hand/contacts.h"
 #include "io/lcm/message_log.h"
 
 namespace barehand {
@@ -21,7 +19,6 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
   auto log = MessageLog::open(log_path);
   if (!log) return tl::unexpected(log.error());
   ObjectPoses poses;
-  std::size_t unknown = 0;
 
   // Read the messages about the first object, and leave out those that hold no rigid motion.
   for (const LogEntry& entry : log->entries()) {
@@ -29,9 +26,7 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
     const auto bytes = log->read(entry);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto state = decode_message<object_state_t>(*bytes);
-    if (!state) continue;
-    unknown += state->object_id >= kFirstUnknownObject;
-    if (state->object_id != kFirst) continue;
+    if (!state || state->object_id != kFirst) continue;
 
     const double* q = state->orientation;
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
@@ -40,12 +35,6 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
     if (!is_pose) continue;
     poses[state->utime] = {orientation.normalized().toRotationMatrix(), position};
   }
-
-  // Refuse a log without any pose.
-  if (poses.empty())
-    return fail(unknown == 0 ? "holds no pose of a known object"
-                             : formatted("holds no pose of a known object, but %zu of unknown ones", unknown),
-                log_path, "give a log written by barehand track --states-log or --mcap with --object");
   return poses;
 }
 
