@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/image.h"
@@ -71,6 +72,9 @@ struct Detection {
   /// only windows around them were searched.
   bool whole_frame = false;
   std::vector<DetectedHand> hands;  ///< most probable first; no two at the same place
+  /// A tracked hand that was examined again in an earlier frame (stages/detection/second_look.h), moved to where it is
+  /// expected now. None in most frames.
+  std::optional<DetectedHand> second_look;
   /// Coarse labels that together cover the whole frame; empty if only windows were searched.
   std::vector<LabelMap> frame_labels;
 };

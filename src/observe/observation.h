@@ -26,11 +26,12 @@ struct HandObservation {
   Image<PixelLabel> label;
   Image<Eigen::Vector3f> normal;     ///< unit normals of hand pixels, towards the camera; zero where undefined
   Image<std::int32_t> nearest_hand;  ///< index of the nearest hand pixel in the image plane (paper Sec. 4.1); -1: none
-  Image<std::int32_t> nearest_object;            ///< index of the nearest object pixel; -1: none
-  std::vector<std::int32_t> hand_pixels;         ///< indices of the hand pixels
-  std::vector<Eigen::Vector3f> cloud;            ///< hand points for ICP, evenly subsampled
-  std::shared_ptr<const DetectedHand> detected;  ///< the detection of this hand; null if there is none
-  double noise = 0.001;                          ///< 1-sigma axial noise of this sensor at the hand's distance [m]
+  Image<std::int32_t> nearest_object;               ///< index of the nearest object pixel; -1: none
+  std::vector<std::int32_t> hand_pixels;            ///< indices of the hand pixels
+  std::vector<Eigen::Vector3f> cloud;               ///< hand points for ICP, evenly subsampled
+  std::shared_ptr<const DetectedHand> detected;     ///< the detection of this hand; null if there is none
+  std::shared_ptr<const DetectedHand> second_look;  ///< Detection::second_look of this hand; null if there is none
+  double noise = 0.001;                             ///< 1-sigma axial noise of this sensor at the hand's distance [m]
 
   /// The 3D point of pixel (u, v), or of the pixel with index i, in the camera frame [m]; zero without measurement.
   Eigen::Vector3f point(int u, int v) const {

@@ -2,7 +2,6 @@
 #include "stages/detection/detection_stage.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sensor/tint.h"
 #include "stages/detection/network_cues.h"
@@ -13,26 +12,19 @@ namespace {
 // While one hand is tracked, the networks look for the other one only in every n-th frame, like TwoHandTracker
 // (kSearchEvery).
 constexpr int kBesideTracked = 3;
-constexpr double kLongestPrediction = 0.2;  // longest time over which a palm's motion is extrapolated [s]
 
 bool is_tracked(const HandEstimatePtr& earlier) { return earlier && earlier->status == TrackStatus::tracking; }
-
-/// Predicts where the palm of a tracked hand is in a frame, by constant velocity.
-ExpectedHand expected(const HandEstimate& earlier, const RgbdFrame& frame) {
-  const SegmentState& palm = earlier.segments[kPalm];
-  const Eigen::Vector3d bone = earlier.profile ? earlier.profile->segments[kPalm].distal : Eigen::Vector3d::Zero();
-  const double age = std::min(kLongestPrediction, std::abs(static_cast<double>(frame.utime - earlier.utime)) * 1e-6);
-  // An unknown velocity (NaN) counts as zero.
-  const Eigen::Vector3d velocity =
-      palm.velocity.allFinite() ? Eigen::Vector3d(palm.velocity.head<3>()) : Eigen::Vector3d::Zero();
-  return {palm.T_camera_segment * (0.5 * bone) + age * velocity, earlier.handedness};
-}
 
 }  // namespace
 
 DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
                                Workers& workers, std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only)
-    : params_(params), use_colour_(use_colour), workers_(workers), log_(std::move(log)), only_(only) {
+    : params_(params),
+      use_colour_(use_colour),
+      workers_(workers),
+      log_(std::move(log)),
+      only_(only),
+      second_look_(params.second_look_every) {
   if (!params.enabled) return;
   auto detector = HandDetector::load(folder, params);
   if (!detector) {
@@ -43,7 +35,8 @@ DetectionStage::DetectionStage(const DetectionParams& params, const std::string&
   log_->info("hands are found by networks of version {}", detector_->version());
 }
 
-DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
+DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback) {
+  const RgbdFrame& frame = *shared;
   const bool valid =
       frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
   if (!detector_ || !valid) return nullptr;  // preprocessing reports what is wrong with the frame
@@ -54,12 +47,15 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
   const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
   const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
-  if (all_tracked && !windows) return nullptr;
+  const auto look = second_look_.next(shared, feedback, *detector_, workers_);
+  if (look && !*look && all_tracked && !windows) return nullptr;
 
   // Search the frame, or the windows around the tracked hands.
   Result<Detection> detection = Detection{};
   expect_tracked(frame, feedback);
-  if (whole)
+  if (!look)
+    detection = tl::unexpected(look.error());
+  else if (whole)
     detection = detector_->detect(frame, workers_, places_);
   else if (windows)
     detection = detector_->detect_at(frame, places_, workers_);
@@ -74,6 +70,7 @@ DetectionPtr DetectionStage::process(const RgbdFrame& frame, std::span<const Han
   // While a hand is missing, set whole_frame even if this frame was not searched as a whole: preprocessing then starts
   // the missing hand only where the networks find it, not at any other surface.
   detection->whole_frame = !all_tracked;
+  detection->second_look = *look;
   return std::make_shared<const Detection>(std::move(*detection));
 }
 
@@ -84,11 +81,8 @@ std::optional<Handedness> DetectionStage::wanted(std::span<const HandEstimatePtr
 
 void DetectionStage::expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback) {
   places_.clear();
-  for (const HandEstimatePtr& earlier : feedback) {
-    if (!is_tracked(earlier)) continue;
-    const ExpectedHand place = expected(*earlier, frame);
-    if (place.centre.z() > 0) places_.push_back(place);
-  }
+  for (const HandEstimatePtr& earlier : feedback)
+    if (const auto place = expected_hand(earlier.get(), frame)) places_.push_back(*place);
 }
 
 }  // namespace barehand

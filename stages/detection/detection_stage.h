@@ -8,11 +8,13 @@
 #include "hand/hand_pose.h"
 #include "sensor/rgbd_frame.h"
 #include "stages/detection/hand_detector.h"
+#include "stages/detection/second_look.h"
 
 namespace barehand {
 
 /// Decides for every frame where to run the detection networks, and runs them: on the whole frame while a hand is
-/// missing; around each tracked hand if no colour is available that would tell it from the arm; otherwise not at all.
+/// missing; around each tracked hand if no colour is available that would tell it from the arm; otherwise now and then,
+/// beside the tracking (SecondLook).
 /// The decision depends on the frames and the feedback only, not on time, so that a recording gives the same results on
 /// every machine. Synchronous; frames must come in order. If the networks cannot be used, a warning is logged once and
 /// nothing is detected.
@@ -26,7 +28,7 @@ class DetectionStage {
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
   /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
   /// contains no information about where hands are.
-  DetectionPtr process(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
+  DetectionPtr process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback);
 
  private:
   // The side of the hand that is searched for, if it is only one.
@@ -41,6 +43,7 @@ class DetectionStage {
   std::optional<Handedness> only_;
   std::optional<HandDetector> detector_;  // none: detection is off
   std::int64_t frame_ = 0;                // number of valid frames so far
+  SecondLook second_look_;                // after the detector that it uses
   std::vector<ExpectedHand> places_;      // scratch
 };
 

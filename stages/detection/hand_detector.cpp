@@ -51,7 +51,7 @@ Result<HandDetector> HandDetector::load(const std::string& folder, const Detecti
   auto full = Network::load(weights->full.bytes, weights->full.path, kFullShape);
   if (!full) return tl::unexpected(full.error());
   std::vector<WindowExaminer> examiners;
-  for (int i = 0; i < kAtOnce; ++i) {
+  for (int i = 0; i < kAtOnce + 1; ++i) {
     auto crop = Network::load(weights->crop.bytes, weights->crop.path, kCropShape);
     if (!crop) return tl::unexpected(crop.error());
     examiners.emplace_back(std::move(*crop));

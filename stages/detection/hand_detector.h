@@ -34,6 +34,13 @@ class HandDetector {
   /// Finds the hands at the given places without searching the rest of the frame. Places without a hand are left out.
   Result<Detection> detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers);
 
+  /// Examines one place, with a network of its own. May run on another thread beside the other functions, but not twice
+  /// at a time.
+  Result<std::optional<DetectedHand>> examine_beside(const RgbdFrame& frame, const ExpectedHand& place,
+                                                     Workers& workers) {
+    return examiners_.back().examine(frame, place, workers);
+  }
+
   const std::string& version() const { return version_; }
 
   static constexpr int kMostHands = 4;
@@ -57,7 +64,7 @@ class HandDetector {
   static constexpr int kAtOnce = 2;  // number of windows that are examined at the same time, whatever the workers
 
   Network full_;
-  std::vector<WindowExaminer> examiners_;  // kAtOnce
+  std::vector<WindowExaminer> examiners_;  // kAtOnce, and one for examine_beside()
   std::string version_;
   DetectionParams params_;
   PalmHistory known_;

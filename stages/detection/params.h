@@ -10,6 +10,7 @@ struct DetectionParams {
   std::string networks = "nets";
   int every = 1;
   int every_tracked = 1;
+  int second_look_every = 15;
   double least_palm = 0.2;
   bool operator==(const DetectionParams&) const = default;
 };
@@ -22,6 +23,9 @@ void visit(V& v, DetectionParams& p) {
   v("every", p.every, 1, 1000, "every n-th frame is searched as a whole while a hand is missing");
   v("every_tracked", p.every_tracked, 1, 1000,
     "every n-th frame is searched around each tracked hand where there is no colour");
+  v("second_look_every", p.second_look_every, 0, 1000,
+    "every n-th frame one tracked hand is examined again if some of it is not seen, to find confused fingers; 0: "
+    "never");
   v("least_palm", p.least_palm, 0.01, 0.99, "minimum probability with which the network must report a palm");
 }
 

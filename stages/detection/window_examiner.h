@@ -4,15 +4,10 @@
 
 #include "observe/detection.h"
 #include "sensor/rgbd_frame.h"
+#include "stages/detection/expected_hand.h"
 #include "stages/detection/network.h"
 
 namespace barehand {
-
-/// A place where a hand is expected.
-struct ExpectedHand {
-  Eigen::Vector3d centre;          ///< centre of the palm, camera frame [m]
-  std::optional<Handedness> side;  ///< none: the hand may be of either side
-};
 
 /// Estimates joints, side and labels of the hand at a place of the depth image, by the second network on up to three
 /// windows. Not thread-safe, but several examiners may work at the same time.

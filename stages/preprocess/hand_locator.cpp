@@ -49,7 +49,7 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     hand.found = hand.followed = false;
     hand.prediction.reset();
     hand.wrist.reset();
-    hand.detected = nullptr;
+    hand.detected = hand.second_look = nullptr;
     hand.cells.reset(grid.z.width(), grid.z.height());
   }
 
@@ -114,10 +114,10 @@ void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detec
     }
 }
 
-const DetectedHand* HandLocator::detected_near(const Detection& detection, const Eigen::Vector3f& centre,
+const DetectedHand* HandLocator::detected_near(std::span<const DetectedHand> hands, const Eigen::Vector3f& centre,
                                                double reach) const {
   const DetectedHand* nearest = nullptr;
-  for (const DetectedHand& hand : detection.hands) {
+  for (const DetectedHand& hand : hands) {
     const double distance = (hand.centre - centre.cast<double>()).norm();
     if (distance >= reach) continue;
     reach = distance;
@@ -263,7 +263,9 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
 
   // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;
-  if (detection) hand.detected = detected_near(*detection, body.centre(), kHandRadius);
+  if (detection) hand.detected = detected_near(detection->hands, body.centre(), kHandRadius);
+  if (detection && detection->second_look)
+    hand.second_look = detected_near({&*detection->second_look, 1}, body.centre(), kHandRadius);
   hand.wrist = WristPlane{body.wrist() + margin * body.arm_axis(), body.arm_axis()};
   return true;
 }

@@ -23,6 +23,7 @@ struct CoarseHand {
   Image<float> distance;                   ///< distance of candidates from the prediction's skin [m]; infinite far away
   std::optional<WristPlane> wrist;         ///< plane behind which cells are forearm
   const DetectedHand* detected = nullptr;  ///< the corresponding detected hand; null if there is none
+  const DetectedHand* second_look = nullptr;  ///< Detection::second_look, if it is of this hand
 };
 
 /// Finds which cells of the coarse grid belong to which hand (a segmentation; the search for poses is in
@@ -46,7 +47,8 @@ class HandLocator {
               CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
   void remove_labelled(const CoarseGrid& grid, const Detection& detection);
-  const DetectedHand* detected_near(const Detection& detection, const Eigen::Vector3f& centre, double reach) const;
+  const DetectedHand* detected_near(std::span<const DetectedHand> hands, const Eigen::Vector3f& centre,
+                                    double reach) const;
   const DetectedHand* choose_detected(const Detection& detection) const;
   bool start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand);
   void remove_hand(const CoarseGrid& grid, const CoarseHand& hand);

@@ -73,6 +73,8 @@ HandObservationPtr Preprocessor::observe(const FramePtr& frame, const CoarseHand
   const std::shared_ptr<HandObservation> out = pool_.take();
   out->frame = frame;
   out->detected = hand.found && hand.detected ? std::shared_ptr<const DetectedHand>(detection, hand.detected) : nullptr;
+  out->second_look =
+      hand.found && hand.second_look ? std::shared_ptr<const DetectedHand>(detection, hand.second_look) : nullptr;
 
   // Clean the depth in the region of interest.
   const Region region = hand.found ? region_of_interest(*frame, hand) : Region{};

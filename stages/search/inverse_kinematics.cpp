@@ -38,7 +38,16 @@ Attachment attachment(int landmark) {
   return {segment_of(finger, std::min(k, 2)), k == 3};
 }
 
+/// Position of a landmark of a pose, camera frame [m].
+Vector3d landmark(const HandProfile& profile, const HandPose& pose, int k) {
+  const auto [s, distal] = attachment(k);
+  return distal ? distal_end(profile, pose, s) : pose[s].t;
+}
+
 double square(double x) { return x * x; }
+
+/// Cauchy's cost of a squared Mahalanobis distance.
+double robust_cost(double distance_sq) { return square(kOutlier) * std::log1p(distance_sq / square(kOutlier)); }
 
 /// Adds a residual r with information matrix W that depends on segment s, its parent and the logarithm of the scale.
 void add_with_scale(int s, const JointJacobians& J, const Vector3d& J_scale, const Vector3d& r, const Matrix3d& W,
@@ -60,9 +69,9 @@ void add_landmarks(const HandProfile& profile, const DetectedJoints& joints, con
     const Matrix3d information = joints[k].covariance.inverse();
 
     // Weight the joint by Cauchy's robust cost (iteratively reweighted least squares).
-    const double distance_sq = r.dot(information * r), scale_sq = square(kOutlier);
-    const Matrix3d W = information / (1 + distance_sq / scale_sq);
-    const double cost = scale_sq * std::log1p(distance_sq / scale_sq);
+    const double distance_sq = r.dot(information * r);
+    const Matrix3d W = information / (1 + distance_sq / square(kOutlier));
+    const double cost = robust_cost(distance_sq);
     out.energy += cost;
     out.cost += cost / kLandmarkCount;
 
@@ -223,10 +232,16 @@ std::optional<KinematicFit> fit(const HandProfile& profile, const DetectedJoints
 
 double mean_distance(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints) {
   double sum = 0;
+  for (int k = 0; k < kLandmarkCount; ++k)
+    sum += (landmark(profile, pose, k) - joints[k].position).norm() / kLandmarkCount;
+  return sum;
+}
+
+double joint_cost(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints) {
+  double sum = 0;
   for (int k = 0; k < kLandmarkCount; ++k) {
-    const auto [s, distal] = attachment(k);
-    const Vector3d own = distal ? distal_end(profile, pose, s) : pose[s].t;
-    sum += (own - joints[k].position).norm() / kLandmarkCount;
+    const Vector3d r = landmark(profile, pose, k) - joints[k].position;
+    sum += robust_cost(r.dot(joints[k].covariance.inverse() * r)) / kLandmarkCount;
   }
   return sum;
 }

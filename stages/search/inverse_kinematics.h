@@ -33,6 +33,10 @@ std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const
 /// Mean distance of the joints of a pose from detected ones [m].
 double mean_distance(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints);
 
+/// Mean robust (Cauchy) squared Mahalanobis distance of the joints of a pose from detected ones: KinematicFit::cost of
+/// this pose.
+double joint_cost(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints);
+
 /// Standard deviation of the logarithm of the hand's size among adults and youths.
 inline constexpr double kScaleDeviation = 0.12;
 

@@ -36,14 +36,14 @@ class DetectionStageTest : public ::testing::Test {
 
 TEST_F(DetectionStageTest, SwitchedOffItFindsNothing) {
   DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", true, workers_, make_silent_logger());
-  EXPECT_EQ(off.process(*frame_, {}), nullptr);
+  EXPECT_EQ(off.process(frame_, {}), nullptr);
 }
 
 TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
   DetectionStage searching = stage();
   for (const TrackStatus status : {TrackStatus::searching, TrackStatus::holding, TrackStatus::lost}) {
     const std::vector<HandEstimatePtr> feedback = {earlier(status)};
-    const DetectionPtr detection = searching.process(*frame_, feedback);
+    const DetectionPtr detection = searching.process(frame_, feedback);
     ASSERT_TRUE(detection);
     EXPECT_TRUE(detection->whole_frame);
     EXPECT_EQ(detection->hands.size(), 1u);
@@ -53,14 +53,14 @@ TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
 TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereThereIsNoColour) {
   DetectionStage tracking = stage();
   const std::vector<HandEstimatePtr> feedback = {earlier(TrackStatus::tracking)};
-  const DetectionPtr without_colour = tracking.process(*frame_, feedback);
+  const DetectionPtr without_colour = tracking.process(frame_, feedback);
   ASSERT_TRUE(without_colour);
   EXPECT_FALSE(without_colour->whole_frame);
   EXPECT_EQ(without_colour->hands.size(), 1u);
   paint({200, 150, 120});
-  EXPECT_EQ(tracking.process(*frame_, feedback), nullptr);
+  EXPECT_EQ(tracking.process(frame_, feedback), nullptr);
   paint({120, 120, 120});
-  EXPECT_TRUE(tracking.process(*frame_, feedback));
+  EXPECT_TRUE(tracking.process(frame_, feedback));
 }
 
 TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
@@ -68,7 +68,7 @@ TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
   DetectionStage both = stage();
   const std::vector<HandEstimatePtr> feedback = {earlier(TrackStatus::tracking), earlier(TrackStatus::searching)};
   int looked = 0;
-  for (int i = 0; i < 9; ++i) looked += both.process(*frame_, feedback)->hands.size() == 1;
+  for (int i = 0; i < 9; ++i) looked += both.process(frame_, feedback)->hands.size() == 1;
   EXPECT_EQ(looked, 3);
 }
 
@@ -113,8 +113,8 @@ TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {
   DetectionParams params;
   params.every = 2;
   DetectionStage searching = stage(params);
-  EXPECT_EQ(searching.process(*frame_, {})->hands.size(), 1u);
-  const DetectionPtr between = searching.process(*frame_, {});
+  EXPECT_EQ(searching.process(frame_, {})->hands.size(), 1u);
+  const DetectionPtr between = searching.process(frame_, {});
   ASSERT_TRUE(between);
   EXPECT_TRUE(between->whole_frame);
   EXPECT_TRUE(between->hands.empty());
@@ -123,7 +123,7 @@ TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {
 TEST_F(DetectionStageTest, AFrameWithoutIntrinsicsIsLeftToPreprocessing) {
   DetectionStage searching = stage();
   frame_->camera = {};
-  EXPECT_EQ(searching.process(*frame_, {}), nullptr);
+  EXPECT_EQ(searching.process(frame_, {}), nullptr);
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ TEST_F(NetworksTest, WithoutThemTheStageSaysSoOnceAndDetectsNothing) {
   Workers workers(1);
   DetectionStage stage(params, folder_.path(), true, workers, test::text_logger(said));
   const auto frame = test::RenderedPerson(test::vga_camera()).frame();
-  EXPECT_EQ(stage.process(*frame, {}), nullptr);
-  EXPECT_EQ(stage.process(*frame, {}), nullptr);
+  EXPECT_EQ(stage.process(frame, {}), nullptr);
+  EXPECT_EQ(stage.process(frame, {}), nullptr);
   const std::string text = said.str();
   EXPECT_THAT(text, testing::HasSubstr("full.onnx"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);

@@ -158,5 +158,19 @@ TEST_F(InverseKinematicsTest, JointsOnOneSpotDefineNoPose) {
   EXPECT_FALSE(fit_to_joints(*profile_, joints));
 }
 
+TEST_F(InverseKinematicsTest, TheCostOfAPoseIsThatOfItsEquations) {
+  for (int i = 0; i < 10; ++i) {
+    const HandPose pose = random_pose(*profile_);
+    const DetectedJoints joints = joints_of(*profile_, pose, 0.01);
+    const auto equations = kinematic_equations(*profile_, widened_limits(*profile_, 0), joints, pose, 1);
+    EXPECT_NEAR(joint_cost(*profile_, pose, joints), equations.cost, 1e-9);
+
+    // A finger in another place costs more.
+    DetectedJoints moved = joints;
+    moved[landmark_of(3, 3)].position += Eigen::Vector3d(0.03, 0, 0);
+    EXPECT_GT(joint_cost(*profile_, pose, moved), joint_cost(*profile_, pose, joints)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace barehand

@@ -11,6 +11,7 @@
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "support/painted_hand.h"
+#include "support/rendered_person.h"
 #include "support/text_logger.h"
 #include "tracking/quick_tracker.h"
 
@@ -41,8 +42,11 @@ std::vector<std::string_view> rules_of(const HandEstimate& estimate) {
 /// A tracker that starts with an upright hand, while the observed hand hangs down.
 class UpsideDown : public testing::Test {
  protected:
-  double error_of_next() {
-    const HandEstimatePtr estimate = tracker_.process(*test::stamped(*hand_, utime_ += 33'000));
+  /// `second_look`: what the networks see in a second look at this frame; null: nothing.
+  double error_of_next(const DetectedHand* second_look = nullptr) {
+    const auto frame = test::stamped(*hand_, utime_ += 33'000);
+    if (second_look) frame->second_look = std::make_shared<const DetectedHand>(*second_look);
+    const HandEstimatePtr estimate = tracker_.process(*frame);
     last_rules_ = rules_of(*estimate);
     const SE3& palm = estimate->segments[kPalm].T_camera_segment;
     return estimate->status == TrackStatus::tracking ? (palm.t - pose_[kPalm].t).norm() : 1;
@@ -68,6 +72,23 @@ TEST_F(UpsideDown, IsFoundByTheFirstSearchAfterEachStart) {
     EXPECT_LT(error_of_next(), 0.005) << start;
     EXPECT_THAT(last_rules_, Contains("search")) << start;
   }
+}
+
+TEST_F(UpsideDown, IsTurnedByASecondLook) {
+  const DetectedHand right = test::detected_hand(*profile_, pose_, 6, 0.01),
+                     wrong = test::detected_hand(*profile_, upright_, 6, 0.01);
+  tracker_.apply(StartAt{upright_});
+  EXPECT_GT(error_of_next(&wrong), 0.05) << "the pose explains the frame no better";
+  EXPECT_LT(error_of_next(&right), 0.005);
+  EXPECT_THAT(last_rules_, Contains("second look"));
+}
+
+TEST_F(UpsideDown, IsNotTurnedByJointsThatNoHandHas) {
+  DetectedHand torn = test::detected_hand(*profile_, pose_, 6, 0.01);
+  for (int finger = 0; finger < kFingerCount; ++finger)
+    torn.joints[landmark_of(finger, 3)].position.x() += finger % 2 == 0 ? 0.08 : -0.08;
+  tracker_.apply(StartAt{upright_});
+  EXPECT_GT(error_of_next(&torn), 0.05);
 }
 
 TEST(HandTracker, IsNotConfidentInABadFrame) {

@@ -76,6 +76,10 @@ void visit(V& v, ChoiceParams& p) {
     v.without_effect(key);
 }
 
+// A pose from detected joints replaces the followed one if their cost (joint_cost()) is below the first for it, so that
+// the networks are about as wrong as usual, and lower by the second than for the followed pose.
+inline constexpr double kTrustedJointCost = 1.2, kJointCostAdvantage = 0.05;
+
 // Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.
 inline constexpr double kHandAdvantage = 0.1;  ///< advantage needed if a single frame is compared
 /// Advantage needed to assign a region to one side while the other side's hand was just lost: a hand that reappears

@@ -38,7 +38,7 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
   }
 
   // Unless the networks are certain, the refined pose and earlier frames must confirm that it is a hand.
-  std::optional<Hypothesis> best = detected(observation, hand);
+  std::optional<Hypothesis> best = detected(observation.detected.get(), observation, hand);
   if (log_odds < kCertainHand) {
     const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
     if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
 
   // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
   const int frames = ++track.ambiguous_frames;
-  if (observation.detected) return detected(observation, hand);
+  if (observation.detected) return detected(observation.detected.get(), observation, hand);
 
   // Without a detection, try quick searches and searches near the followed pose in turn.
   const int first = (params.ambiguous_search_every + 1) / 2;
@@ -77,6 +77,16 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
     return search_once(observation, hand, track, Effort::quick, 0, frame);
   if (frames % params.ambiguous_near_every == 0) return search_near(observation, hand, followed.refined.pose, frame);
   return std::nullopt;
+}
+
+void Proposers::look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
+  auto seen = detected(observation.second_look.get(), observation, hand);
+  if (!seen) return;
+  const auto cost = [&](const Hypothesis& pose) {
+    return joint_cost(*hand.profile, pose.refined.pose, observation.second_look->joints);
+  };
+  if (cost(*seen) >= std::min(kTrustedJointCost, cost(followed) - kJointCostAdvantage)) return;
+  if (choice_.replaces("second look", *seen, followed, 0)) followed = std::move(*seen);
 }
 
 void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
@@ -91,9 +101,10 @@ void Proposers::uncross_fingers(const HandObservation& observation, const HandMo
 }
 
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
-std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
-  if (!observation.detected) return std::nullopt;
-  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
+std::optional<Hypothesis> Proposers::detected(const DetectedHand* seen, const HandObservation& observation,
+                                              const HandModel& hand) const {
+  if (!seen) return std::nullopt;
+  const auto fit = fit_to_joints(*hand.profile, seen->joints);
   if (!fit) return std::nullopt;
   auto best =
       best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);

@@ -31,11 +31,17 @@ class Proposers {
   std::optional<Hypothesis> propose_alternative(const HandObservation& observation, const HandModel& hand, Track& track,
                                                 const Hypothesis& followed, std::uint32_t frame) const;
 
+  /// Replaces the followed pose by that of a second look of the networks, if there is one in this frame, which explains
+  /// the frame no worse and agrees better with the joints that the networks found. Fingers that were taken for their
+  /// hidden neighbours get their places back in this way.
+  void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
+
   /// Puts crossed fingers of the followed pose side by side if that explains the frame about as well.
   void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
 
  private:
-  std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
+  std::optional<Hypothesis> detected(const DetectedHand* seen, const HandObservation& observation,
+                                     const HandModel& hand) const;
   // One search of the whole observation. `attempt`: number of the search in this frame, from 0.
   std::optional<Hypothesis> search_once(const HandObservation& observation, const HandModel& hand, const Track& track,
                                         Effort effort, int attempt, std::uint32_t frame) const;
