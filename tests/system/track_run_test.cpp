@@ -359,6 +359,17 @@ TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {
   EXPECT_THAT(saving.output(), HasSubstr("/nonexistent/mine.json: cannot be written"));
 }
 
+TEST_F(TrackRun, AMeshThatIsReadIsNotReplaced) {
+  const std::string mesh = folder_ + "/block.obj",
+                    content = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::ofstream(mesh) << content;
+  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--object", mesh,
+                      "--result", mesh, "--overwrite"});
+  EXPECT_EQ(child.finish(), 2);
+  EXPECT_THAT(child.output(), HasSubstr("is the file of --object"));
+  EXPECT_EQ(test::read_text(mesh), content);
+}
+
 TEST_F(TrackRun, BadHandAndPoseFilesAreExitCode2) {
   const std::string bad = folder_ + "/bad.json";
   std::ofstream(bad) << "{\"handedness\": \"right\", \"segments\": []}";

@@ -111,7 +111,7 @@ class Reception {
 }  // namespace
 
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             const TwoHandTracker::Profiles& hands) {
+                             const BenchScene& scene) {
   const SystemClock clock;
   RepeatLog log(make_logger(), clock);
   auto workers = make_workers(bench.threads);
@@ -138,7 +138,8 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   if (!publish) return tl::unexpected(publish.error());
 
   // Make the same stages as `barehand track`.
-  TrackStages stages = make_track_stages(bench.config, hands, std::nullopt, {}, **workers, log);
+  TrackStages stages =
+      make_track_stages(bench.config, scene.hands, std::nullopt, {}, **workers, log, nullptr, scene.objects);
   PipelineOptions options;
   options.threaded = !conditions.inline_stages;
   pipeline = std::make_unique<Pipeline>(PipelineStages{source,

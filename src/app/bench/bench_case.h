@@ -6,6 +6,7 @@
 
 #include "app/bench/memory_source.h"
 #include "core/statistics.h"
+#include "object/known_object.h"
 #include "pipeline/config.h"
 #include "tracking/two_hand_tracker.h"
 
@@ -34,6 +35,12 @@ struct BenchConditions {
   std::string lcm_url;  ///< LCM network to which the states are published and from which they are received
 };
 
+/// What is tracked in all cases.
+struct BenchScene {
+  TwoHandTracker::Profiles hands;
+  std::vector<KnownObjectPtr> objects;
+};
+
 /// What was measured in one case over all counted frames.
 struct BenchResult {
   double seconds = 0;  ///< wall clock time
@@ -53,6 +60,6 @@ struct BenchResult {
 /// Runs the pipeline of `barehand track` over stored frames. Errors: an LCM network that cannot be opened, a stage
 /// that fails, a number of threads that is out of range.
 Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& conditions, const FrameStore& store,
-                             const TwoHandTracker::Profiles& hands);
+                             const BenchScene& scene);
 
 }  // namespace barehand

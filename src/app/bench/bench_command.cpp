@@ -25,6 +25,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
+  add_object_options(*bench, o.objects);
+
   // Add options for the frames that are used.
   bench->add_option("--store", o.store, "frames to keep in memory; they are played back and forth")
       ->check(CLI::Range(1, 100000))

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/shared/known_objects.h"
+
 namespace barehand {
 
 /// The arguments of `barehand bench`.
@@ -12,6 +14,7 @@ struct BenchOptions {
   std::string source = "sim:grasp_ball";
   std::vector<std::string> configs = {"default.yaml"};
   std::vector<std::string> hands;  ///< empty: the source's own, or the shipped adult hand
+  ObjectMeshes objects;
   // Numbers of frames; see `barehand bench --help`.
   std::int64_t store = 120;
   std::int64_t frames = 300;

@@ -59,10 +59,10 @@ Result<std::vector<NamedCase>> cases_of(const BenchOptions& options) {
   return cases;
 }
 
-/// The frames and hands that all cases use.
+/// What all cases use.
 struct Input {
   FrameStore store;
-  TwoHandTracker::Profiles hands;
+  BenchScene scene;
 };
 
 Result<Input> read_input(const BenchOptions& options) {
@@ -73,10 +73,12 @@ Result<Input> read_input(const BenchOptions& options) {
   if (!source) return tl::unexpected(source.error());
   auto hands = choose_hands(options.hands, *source);
   if (!hands) return tl::unexpected(hands.error());
+  auto objects = load_objects(options.objects, *make_logger());
+  if (!objects) return tl::unexpected(objects.error());
   std::cerr << "reading frames of " << source->source->name() << "\n";
   auto store = read_frames(*source->source, options.store);
   if (!store) return tl::unexpected(store.error());
-  return Input{std::move(*store), profiles_of(*hands)};
+  return Input{std::move(*store), {profiles_of(*hands), std::move(*objects)}};
 }
 
 /// Checks that the files to be written may be written and are not read as well. The plots are those that are always
@@ -87,6 +89,7 @@ Result<void> check_written(const BenchOptions& options) {
   for (const std::string& hand : options.hands)
     if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
 
+  for (const std::string& object : options.objects.paths) inputs.push_back({"--object", object});
   const bool draws = !options.draw.empty() || (!options.json.empty() && !options.plots.empty());
   const std::string folder = options.plots.empty() ? "." : options.plots;
   std::vector<std::string> plots = {"stages", "memory"};
@@ -102,7 +105,7 @@ Result<void> check_written(const BenchOptions& options) {
 
 Result<BenchRow> measure(const NamedCase& named, const BenchConditions& conditions, const Input& input) {
   const FrameStore store = decimated(input.store, named.bench.decimate);
-  auto result = run_case(named.bench, conditions, store, input.hands);
+  auto result = run_case(named.bench, conditions, store, input.scene);
   if (!result) return tl::unexpected(result.error());
   const Intrinsics& camera = store.frames[0]->camera;
   return BenchRow{named.bench.sweep, named.bench.value, named.config,      named.bench.threads,
@@ -161,7 +164,7 @@ int run_bench(const BenchOptions& options) {
   report.source = options.source;
   report.processor = processor_name();
   report.cores = available_cores();
-  report.hands = static_cast<int>(input->hands.size());
+  report.hands = static_cast<int>(input->scene.hands.size());
   report.conditions = {options.frames, options.warm_up, options.rate, options.single_threaded, options.lcm_url};
 
   // The table goes to the standard output, unless the figures do.

@@ -57,22 +57,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
   o.threads = available_cores();
   CLI::App* track = app.add_subcommand("track", "Track a hand in a recording, a log, live frames or the simulator");
   add_input_options(*track, o);
-
-  // Add options for known objects.
-  track
-      ->add_option(
-          "--object", o.objects,
-          "mesh of an object that the hand may hold (OBJ, PLY, STL, glTF), which is then tracked, too; repeat it "
-          "for several")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-
-  track
-      ->add_option("--object-unit", o.object_units,
-                   "unit of the mesh's file: m, cm or mm; once for all objects or once for each; default: m")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->needs("--object");
+  add_object_options(*track, o.objects);
 
   // Add options for the files that are written.
   track->add_option("--result", o.result, "write the table of segment poses (CSV)");

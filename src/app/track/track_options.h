@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/shared/known_objects.h"
+
 namespace barehand {
 
 /// The arguments of `barehand track`.
@@ -16,8 +18,7 @@ struct TrackOptions {
   std::optional<std::int64_t> start;
   std::int64_t step = 1;
   std::string init = "auto";
-  std::vector<std::string> objects;       ///< meshes of the objects that the hand may hold
-  std::vector<std::string> object_units;  ///< units of their files: none, one for all, or one for each
+  ObjectMeshes objects;
   std::string result, states_log, mcap, decisions, overlay, save_hand;  ///< "": not written
   std::string saved_later;  ///< a file that the caller writes after the run, checked with the other outputs; "": none
   bool overwrite = false;   ///< whether outputs may replace existing files

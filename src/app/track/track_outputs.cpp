@@ -93,6 +93,7 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
   for (const std::string& hand : options.hands)
     if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
   if (options.init != "auto") inputs.push_back({"--init", options.init});
+  for (const std::string& object : options.objects.paths) inputs.push_back({"--object", object});
   const SourceFiles source = files_of_source(options.source);
   const bool number = live && !options.overwrite;
   if (const auto good = check_outputs(source, inputs, outputs_of(options, hands), options.overwrite || number); !good)

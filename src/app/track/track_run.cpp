@@ -16,7 +16,6 @@
 #include "app/shared/run_inputs.h"
 #include "app/shared/source_factory.h"
 #include "app/shared/standard_streams.h"
-#include "app/track/known_objects.h"
 #include "app/track/track_outputs.h"
 #include "core/available_memory.h"
 #include "core/parallel/parallel.h"
@@ -191,7 +190,7 @@ Step TrackRun::use_hands() {
 }
 
 Step TrackRun::use_objects() {
-  auto objects = load_objects(options_.objects, options_.object_units, log_.logger());
+  auto objects = load_objects(options_.objects, log_.logger());
   if (!objects) return usage(objects.error());
   objects_ = std::move(*objects);
   return {};

@@ -1,5 +1,7 @@
-// Reads the meshes that `barehand track --object` names.
-#include "app/track/known_objects.h"
+// Reads the meshes that `--object` names.
+#include "app/shared/known_objects.h"
+
+#include <CLI/CLI.hpp>
 
 #include "core/format.h"
 #include "io/mesh/mesh_file.h"
@@ -18,8 +20,25 @@ void report(const LoadedMesh& loaded, const KnownObject& object, const std::stri
 
 }  // namespace
 
-Result<std::vector<KnownObjectPtr>> load_objects(const std::vector<std::string>& paths,
-                                                 const std::vector<std::string>& units, spdlog::logger& log) {
+void add_object_options(CLI::App& command, ObjectMeshes& files) {
+  command
+      .add_option(
+          "--object", files.paths,
+          "mesh of an object that the hand may hold (OBJ, PLY, STL, glTF), which is then tracked, too; repeat it "
+          "for several")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+
+  command
+      .add_option("--object-unit", files.units,
+                  "unit of the mesh's file: m, cm or mm; once for all objects or once for each; default: m")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->needs("--object");
+}
+
+Result<std::vector<KnownObjectPtr>> load_objects(const ObjectMeshes& files, spdlog::logger& log) {
+  const auto& [paths, units] = files;
   if (units.size() > 1 && units.size() != paths.size())
     return fail(formatted("is given %zu times for %zu objects", units.size(), paths.size()), "--object-unit",
                 "give it once for all objects, or once for each");
