@@ -404,6 +404,46 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   }
 }
 
+TEST_F(RecordingFolder, DistortionThatIsSpelledOtherwiseIsSaidWithItsPlace) {
+  record();
+  const std::string plain = test::read_text(path_ + "/camera.json");
+  const auto warnings_with = [&](const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    const auto recording = open_recording(path_);
+    EXPECT_TRUE(recording) << recording.error().message();
+    return recording->warnings;
+  };
+  const auto said = [&](const std::string& keys, const std::string& place) {
+    EXPECT_THAT(warnings_with(keys),
+                ElementsAre(AllOf(HasSubstr("camera.json: " + place), HasSubstr("not used"), HasSubstr("k1, k2"))))
+        << keys;
+  };
+  said(R"("distortion": {"coefficients": [-2.5, 0, 0, 0]})", "\"distortion.coefficients\"");
+  said(R"("depth_camera": {"D": [-2.5, 0, 0, 0, 0]})", "\"depth_camera.D\"");
+  said(R"("cameras": [{}, {"lens": {"k1": "-2.5", "K2": 0.1, "p1": 0}}])", "\"cameras.1.lens.K2\" and 1 more");
+  said(R"("dist_coeffs": "-2.5 0 0 0 0")", "\"dist_coeffs\"");
+  said(R"("D": [0, 0, 0, 0], "lensDistortion": {"radial": [-2.5]})", "\"lensDistortion\"");
+  EXPECT_THAT(warnings_with(R"("colour": {"D": [0, 0], "distortion": "brown", "d1": 2, "K": [525, 1]})"), IsEmpty());
+  EXPECT_THAT(warnings_with(R"("depth_camera": {"D": [-2.5, 0, 0, 0, 0]}, "rectified": true)"), IsEmpty());
+}
+
+TEST_F(RecordingFolder, ACoefficientThatIsNoNumberIsRefused) {
+  record();
+  const std::string plain = test::read_text(path_ + "/camera.json");
+  const auto refusal = [&](const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    return open_error();
+  };
+  EXPECT_THAT(refusal(R"("k1": "-0.25")"), AllOf(HasSubstr("camera.json: \"k1\" is \"-0.25\""), HasSubstr("a number")));
+  EXPECT_THAT(refusal(R"("D": [-0.25, "0.1", 0, 0])"), HasSubstr("\"D\" is \"0.1\", not a number"));
+  EXPECT_THAT(refusal(R"("D": [[-0.25, 0.1, 0, 0]])"), HasSubstr("\"D\" is [-0.25,0.1,0,0], not a number"));
+  EXPECT_THAT(refusal(R"("intrinsics": {"k2": "none"})"), HasSubstr("camera.json: intrinsics: \"k2\""));
+  EXPECT_THAT(refusal(R"("distortion_coefficients": {"data": [null]})"),
+              HasSubstr("distortion_coefficients: \"data\""));
+}
+
 TEST_F(RecordingFolder, DepthAndColourAreUndistortedAlike) {
   record();
   Image<std::uint16_t> depth(8, 6, 5000);
