@@ -359,6 +359,25 @@ TEST_F(RecordingFolder, FramesBetweenTheColourImagesSayThatTheyHaveNone) {
   EXPECT_THAT((*read_frame(*recording, 2))->colour_fault, HasSubstr("rgb.txt lists none within 0.100 s"));
 }
 
+TEST_F(RecordingFolder, ColourWhoseStampsAreInAnotherUnitIsSaid) {
+  record();
+  const auto warnings_with = [&](const char* list) {
+    test::write_text(path_ + "/rgb.txt", list);
+    return open_recording(path_)->warnings;
+  };
+  test::write_text(path_ + "/depth.txt", "0.1 depth/000000.png\n0.2 depth/000001.png\n0.3 depth/000002.png\n");
+  EXPECT_THAT(warnings_with("300 rgb/000002.png\n200 rgb/000001.png\n100 rgb/000000.png\n"),
+              ElementsAre(AllOf(HasSubstr("rgb.txt: stamps are in seconds"), HasSubstr("100 s apart"),
+                                HasSubstr("milliseconds: divide them by 1e3"), HasSubstr("without colour"))));
+  EXPECT_THAT(warnings_with("0.1 rgb/000000.png\n0.2 rgb/000001.png\n0.3 rgb/000002.png\n"), IsEmpty());
+  EXPECT_THAT(warnings_with("7 rgb/000000.png\n7.1 rgb/000001.png\n7.2 rgb/000002.png\n"), IsEmpty())
+      << "another clock, but seconds";
+  test::write_text(path_ + "/depth.txt", "0 depth/000000.png\n100 depth/000001.png\n200 depth/000002.png\n");
+  EXPECT_THAT(warnings_with("0 rgb/000000.png\n100 rgb/000001.png\n200 rgb/000002.png\n"),
+              ElementsAre(HasSubstr("depth.txt")))
+      << "said once where both lists have the same unit";
+}
+
 TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   record();
   const std::string plain = test::read_text(path_ + "/camera.json");
