@@ -457,10 +457,17 @@ TEST_F(RecordingFolder, ACoefficientThatIsNoNumberIsRefused) {
   };
   EXPECT_THAT(refusal(R"("k1": "-0.25")"), AllOf(HasSubstr("camera.json: \"k1\" is \"-0.25\""), HasSubstr("a number")));
   EXPECT_THAT(refusal(R"("D": [-0.25, "0.1", 0, 0])"), HasSubstr("\"D\" is \"0.1\", not a number"));
-  EXPECT_THAT(refusal(R"("D": [[-0.25, 0.1, 0, 0]])"), HasSubstr("\"D\" is [-0.25,0.1,0,0], not a number"));
+  EXPECT_THAT(refusal(R"("D": [[-0.25, 0.1, 0, 0]])"), HasSubstr("\"D\" is an array, not a number"));
   EXPECT_THAT(refusal(R"("intrinsics": {"k2": "none"})"), HasSubstr("camera.json: intrinsics: \"k2\""));
   EXPECT_THAT(refusal(R"("distortion_coefficients": {"data": [null]})"),
               HasSubstr("distortion_coefficients: \"data\""));
+}
+
+TEST_F(RecordingFolder, ListsThatAreNestedDeeplyAreRefusedLikeOthers) {
+  record();
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  replace("camera.json", "\"fx\"", "\"D\": [" + deep + "], \"fx\"");
+  EXPECT_THAT(open_error(), HasSubstr("\"D\" is an array, not a number"));
 }
 
 TEST_F(RecordingFolder, DepthAndColourAreUndistortedAlike) {
