@@ -4,6 +4,8 @@
 #include <bit>
 #include <thread>
 
+#include "core/both.h"
+
 namespace barehand {
 namespace {
 
@@ -257,10 +259,14 @@ void Pipeline::idle() {
 }
 
 void Pipeline::finish_sinks() {
-  for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {
-    const auto finished = sink_monitors_[i]->guarded([&] { return stages_.sinks[i]->finish(); });
-    if (!finished) end_with(finished.error());
-  }
+  // Every sink that cannot finish is named, since its file may need to be looked for.
+  Result<void> ended;
+  if (error_) ended = tl::unexpected(*error_);
+  for (std::size_t i = 0; i < stages_.sinks.size(); ++i)
+    ended = both(std::move(ended), sink_monitors_[i]->guarded([&] { return stages_.sinks[i]->finish(); }));
+
+  std::unique_lock lock(mutex_);
+  if (!ended) error_ = ended.error();
 }
 
 void Pipeline::report(const StageMonitor& stage, const Item& item, const Error& error) {

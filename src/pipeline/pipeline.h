@@ -53,7 +53,7 @@ struct PipelineOptions {
 /// How a run ended.
 struct RunResult {
   PipelineHealth health;
-  std::optional<Error> error;           ///< why the run ended early, or why a sink could not finish
+  std::optional<Error> error;           ///< why the run ended early, and which sinks could not finish
   std::vector<std::string> incomplete;  ///< names of the sinks that missed frames
   bool stopped = false;                 ///< whether request_stop() or the stop token ended the run
 };

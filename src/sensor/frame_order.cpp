@@ -60,6 +60,36 @@ std::string too_late(double stamp, StampUnit unit) {
   return in_unit(unit) + ", and no recording is from that time";
 }
 
+std::string unlikely_steps(std::vector<std::int64_t> steps, std::int64_t last, StampUnit unit) {
+  if (steps.size() < kFewestSteps) return "";
+
+  // Find the typical interval between two frames: the median, which a few gaps do not change.
+  const auto [least, most] = std::ranges::minmax(steps);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  const auto typical = static_cast<double>(steps[steps.size() / 2]);
+  const double one = unit == StampUnit::seconds ? 1e6 : 1;
+
+  // Guess what the stamps are if their interval is implausible.
+  std::string like;
+  const bool whole = last % static_cast<std::int64_t>(one) == 0;
+  if (whole && least == most && typical == one) {
+    like = "frame numbers: divide them by the frame rate";
+  } else if (typical > kLongest) {
+    // Find out by which power of 1000 the interval is too long.
+    const int thousands = typical < 1e3 * kLongest ? 1 : typical < 1e6 * kLongest ? 2 : 3;
+    constexpr std::array<const char*, 5> kUnits = {"", "milliseconds", "microseconds", "nanoseconds", ""};
+    const int index = (unit == StampUnit::seconds ? 0 : 2) + thousands;
+    if (index < 4)
+      like = std::string(kUnits[static_cast<std::size_t>(index)]) + formatted(": divide them by 1e%d", 3 * thousands);
+  } else if (typical < kShortest) {
+    like = unit == StampUnit::microseconds && typical > kShortest / 1e3 ? "milliseconds: multiply them by 1000"
+                                                                        : "another unit";
+  }
+
+  if (like.empty()) return "";
+  return in_unit(unit) + formatted(", and the frames are %.6g s apart: these look like ", 1e-6 * typical) + like;
+}
+
 Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number) {
   // Reject a time that is out of range.
   ++frames_;
@@ -110,36 +140,10 @@ void FrameOrder::check_steps() {
   if (steps_checked_ || steps_.size() < kFewestSteps) return;
   steps_checked_ = true;
 
-  // Find the typical interval between two frames: the median, which a few gaps do not change.
-  const auto [least, most] = std::ranges::minmax(steps_);
-  std::vector<std::int64_t> sorted = std::move(steps_);
-  steps_.clear();
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const auto typical = static_cast<double>(sorted[sorted.size() / 2]);
-  const double one = unit_ == StampUnit::seconds ? 1e6 : 1;
-
-  // Guess what the stamps are if their interval is implausible.
-  std::string like;
-  const bool whole = last_utime_ % static_cast<std::int64_t>(one) == 0;
-  if (whole && least == most && typical == one) {
-    like = "frame numbers: divide them by the frame rate";
-  } else if (typical > kLongest) {
-    // Find out by which power of 1000 the interval is too long.
-    const int thousands = typical < 1e3 * kLongest ? 1 : typical < 1e6 * kLongest ? 2 : 3;
-    constexpr std::array<const char*, 5> kUnits = {"", "milliseconds", "microseconds", "nanoseconds", ""};
-    const int index = (unit_ == StampUnit::seconds ? 0 : 2) + thousands;
-    if (index < 4)
-      like = std::string(kUnits[static_cast<std::size_t>(index)]) + formatted(": divide them by 1e%d", 3 * thousands);
-  } else if (typical < kShortest) {
-    like = unit_ == StampUnit::microseconds && typical > kShortest / 1e3 ? "milliseconds: multiply them by 1000"
-                                                                         : "another unit";
-  }
-
   // Warn, but use the stamps as they stand.
-  if (like.empty()) return;
-  warnings_.push_back(
-      formatted("%s, and the frames are %.6g s apart: these look like ", in_unit(unit_).c_str(), 1e-6 * typical) +
-      like + ". They are used as they stand, so that motion and time limits are wrong");
+  const std::string unlikely = unlikely_steps(std::exchange(steps_, {}), last_utime_, unit_);
+  if (!unlikely.empty())
+    warnings_.push_back(unlikely + ". They are used as they stand, so that motion and time limits are wrong");
 }
 
 std::vector<std::string> FrameOrder::take_warnings() { return std::exchange(warnings_, {}); }

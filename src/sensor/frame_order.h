@@ -25,6 +25,11 @@ enum class StampUnit { seconds, microseconds };
 /// the epoch, but stamps are in seconds: divide it by 1000".
 std::string too_late(double stamp, StampUnit unit);
 
+/// Explains times between successive frames [us] that no camera has when its stamps are read in `unit`, for example
+/// "stamps are in seconds, and the frames are 33 s apart: these look like milliseconds: divide them by 1e3". `last`:
+/// one of the stamps [us]. "" if the times are plausible, or too few.
+std::string unlikely_steps(std::vector<std::int64_t> steps, std::int64_t last, StampUnit unit);
+
 /// Checks the time stamps and sets the frame numbers of one channel by the rules in docs/formats.md, "Time". Every
 /// source calls number() for every frame, in the order in which the frames were recorded or arrive.
 ///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or late: it is

@@ -212,6 +212,19 @@ TEST_F(CopyFrames, ColourCanBeLeftOut) {
   EXPECT_TRUE(std::get<FramePtr>(log)->colour.empty());
 }
 
+TEST_F(CopyFrames, WhereTheNameIsTakenMeanwhileTheDraftIsNamed) {
+  for (const char* name : {"a.lcmlog", "a.mcap"}) {
+    ListSource source({frame_event(0)});
+    auto writer = open_frame_writer(folder_ / name, {}).value();
+    EXPECT_EQ(copy(source, *writer).written, 1);
+    EXPECT_TRUE(writer->name().ends_with(folder_ / name)) << writer->name();
+    test::write_text(folder_ / name, "another run's");
+    EXPECT_FALSE(writer->finish());
+    EXPECT_TRUE(writer->name().ends_with(folder_ / name + ".unfinished")) << writer->name();
+    EXPECT_GT(std::filesystem::file_size(folder_ / name + ".unfinished"), 1000u);
+  }
+}
+
 TEST_F(CopyFrames, OniFilesAndExistingLogsAreRefused) {
   const auto oni = open_frame_writer(folder_ / "a.oni", {});
   ASSERT_FALSE(oni);

@@ -53,6 +53,16 @@ TEST_F(Outputs, WhatARecordingConsistsOfIsRefused) {
   EXPECT_NE(complaint(recording, folder_ / "rec", Kind::recording), "");
 }
 
+TEST_F(Outputs, ARecordingWithinTheSourceIsRefused) {
+  fs::create_directory_symlink(folder_ / "rec", folder_ / "link");
+  for (const char* name : {"rec/sub", "rec/sub/deeper", "link/sub"})
+    EXPECT_THAT(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / name, Kind::recording),
+                HasSubstr("lies in the source"))
+        << name;
+  EXPECT_NE(complaint(files_of_source("log:" + (folder_ / "set")), folder_ / "set/sub", Kind::recording), "");
+  EXPECT_EQ(complaint(files_of_source("folder:" + (folder_ / "rec")), folder_ / "rec2", Kind::recording), "");
+}
+
 TEST_F(Outputs, PicturesNeverTakeThePlaceOfARecordingsImages) {
   for (const char* name : {"rec/rgb", "rec/rgb/", "elsewhere/../rec/depth"})
     EXPECT_THAT(complaint({}, folder_ / name, Kind::pictures), HasSubstr("holds images of the recording")) << name;

@@ -359,6 +359,25 @@ TEST_F(RecordingFolder, FramesBetweenTheColourImagesSayThatTheyHaveNone) {
   EXPECT_THAT((*read_frame(*recording, 2))->colour_fault, HasSubstr("rgb.txt lists none within 0.100 s"));
 }
 
+TEST_F(RecordingFolder, ColourWhoseStampsAreInAnotherUnitIsSaid) {
+  record();
+  const auto warnings_with = [&](const char* list) {
+    test::write_text(path_ + "/rgb.txt", list);
+    return open_recording(path_)->warnings;
+  };
+  test::write_text(path_ + "/depth.txt", "0.1 depth/000000.png\n0.2 depth/000001.png\n0.3 depth/000002.png\n");
+  EXPECT_THAT(warnings_with("300 rgb/000002.png\n200 rgb/000001.png\n100 rgb/000000.png\n"),
+              ElementsAre(AllOf(HasSubstr("rgb.txt: stamps are in seconds"), HasSubstr("100 s apart"),
+                                HasSubstr("milliseconds: divide them by 1e3"), HasSubstr("without colour"))));
+  EXPECT_THAT(warnings_with("0.1 rgb/000000.png\n0.2 rgb/000001.png\n0.3 rgb/000002.png\n"), IsEmpty());
+  EXPECT_THAT(warnings_with("7 rgb/000000.png\n7.1 rgb/000001.png\n7.2 rgb/000002.png\n"), IsEmpty())
+      << "another clock, but seconds";
+  test::write_text(path_ + "/depth.txt", "0 depth/000000.png\n100 depth/000001.png\n200 depth/000002.png\n");
+  EXPECT_THAT(warnings_with("0 rgb/000000.png\n100 rgb/000001.png\n200 rgb/000002.png\n"),
+              ElementsAre(HasSubstr("depth.txt")))
+      << "said once where both lists have the same unit";
+}
+
 TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   record();
   const std::string plain = test::read_text(path_ + "/camera.json");
@@ -402,6 +421,53 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
     EXPECT_THAT(recording.warnings, IsEmpty()) << none;
     EXPECT_FALSE(recording.undistortion) << none;
   }
+}
+
+TEST_F(RecordingFolder, DistortionThatIsSpelledOtherwiseIsSaidWithItsPlace) {
+  record();
+  const std::string plain = test::read_text(path_ + "/camera.json");
+  const auto warnings_with = [&](const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    const auto recording = open_recording(path_);
+    EXPECT_TRUE(recording) << recording.error().message();
+    return recording->warnings;
+  };
+  const auto said = [&](const std::string& keys, const std::string& place) {
+    EXPECT_THAT(warnings_with(keys),
+                ElementsAre(AllOf(HasSubstr("camera.json: " + place), HasSubstr("not used"), HasSubstr("k1, k2"))))
+        << keys;
+  };
+  said(R"("distortion": {"coefficients": [-2.5, 0, 0, 0]})", "\"distortion.coefficients\"");
+  said(R"("depth_camera": {"D": [-2.5, 0, 0, 0, 0]})", "\"depth_camera.D\"");
+  said(R"("cameras": [{}, {"lens": {"k1": "-2.5", "K2": 0.1, "p1": 0}}])", "\"cameras.1.lens.K2\" and 1 more");
+  said(R"("dist_coeffs": "-2.5 0 0 0 0")", "\"dist_coeffs\"");
+  said(R"("D": [0, 0, 0, 0], "lensDistortion": {"radial": [-2.5]})", "\"lensDistortion\"");
+  EXPECT_THAT(warnings_with(R"("colour": {"D": [0, 0], "distortion": "brown", "d1": 2, "K": [525, 1]})"), IsEmpty());
+  EXPECT_THAT(warnings_with(R"("depth_camera": {"D": [-2.5, 0, 0, 0, 0]}, "rectified": true)"), IsEmpty());
+}
+
+TEST_F(RecordingFolder, ACoefficientThatIsNoNumberIsRefused) {
+  record();
+  const std::string plain = test::read_text(path_ + "/camera.json");
+  const auto refusal = [&](const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    return open_error();
+  };
+  EXPECT_THAT(refusal(R"("k1": "-0.25")"), AllOf(HasSubstr("camera.json: \"k1\" is \"-0.25\""), HasSubstr("a number")));
+  EXPECT_THAT(refusal(R"("D": [-0.25, "0.1", 0, 0])"), HasSubstr("\"D\" is \"0.1\", not a number"));
+  EXPECT_THAT(refusal(R"("D": [[-0.25, 0.1, 0, 0]])"), HasSubstr("\"D\" is an array, not a number"));
+  EXPECT_THAT(refusal(R"("intrinsics": {"k2": "none"})"), HasSubstr("camera.json: intrinsics: \"k2\""));
+  EXPECT_THAT(refusal(R"("distortion_coefficients": {"data": [null]})"),
+              HasSubstr("distortion_coefficients: \"data\""));
+}
+
+TEST_F(RecordingFolder, ListsThatAreNestedDeeplyAreRefusedLikeOthers) {
+  record();
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  replace("camera.json", "\"fx\"", "\"D\": [" + deep + "], \"fx\"");
+  EXPECT_THAT(open_error(), HasSubstr("\"D\" is an array, not a number"));
 }
 
 TEST_F(RecordingFolder, DepthAndColourAreUndistortedAlike) {

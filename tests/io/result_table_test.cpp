@@ -147,6 +147,17 @@ TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   EXPECT_EQ(table->frames[1].number, 3);
 }
 
+TEST_F(Table, StampsInAnotherUnitAreNamed) {
+  write({0});
+  const std::string good = test::read_text(path_);
+  EXPECT_THAT(
+      error_of(good + "1,1700000000000,palm,0,0,0,0,0,0,1\n"),
+      AllOf(HasSubstr("line 18"), HasSubstr("1.7e+12"),
+            HasSubstr("looks like milliseconds since the epoch, but stamps are in seconds: divide it by 1000")));
+  EXPECT_THAT(error_of(good + "1,1.7e15,palm,0,0,0,0,0,0,1\n"), HasSubstr("microseconds"));
+  EXPECT_THAT(error_of(good + "1,-1e300,palm,0,0,0,0,0,0,1\n"), HasSubstr("no recording is from that time"));
+}
+
 TEST_F(Table, BadLinesAreNamed) {
   write({0, 1});
   const std::string good = test::read_text(path_);

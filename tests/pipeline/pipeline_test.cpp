@@ -74,7 +74,7 @@ struct World {
     PipelineStages stages{source,
                           [this](const FramePtr& f, const HandEstimates& before) { return preprocess(f, before); },
                           [this](const HandObservations& o) { return track(o); },
-                          {&sink},
+                          sinks,
                           contact,
                           grasp};
     pipeline = std::make_unique<Pipeline>(std::move(stages), options, clock, log);
@@ -106,6 +106,7 @@ struct World {
   ManualClock clock;
   RepeatLog log{make_silent_logger(), clock};
   RecordingSink sink;
+  std::vector<Sink*> sinks{&sink};
   std::function<Result<FrameContactsPtr>(const HandObservations&, const HandEstimates&)> contact;
   std::function<Result<FrameGraspsPtr>(const HandEstimates&)> grasp;
   std::function<void(const FramePtr&)> before_preprocess;
@@ -368,6 +369,17 @@ TEST_P(PipelineLifecycle, SinkThatCannotFinishIsAnError) {
   const RunResult result = world_.run(source);
   ASSERT_TRUE(result.error);
   EXPECT_EQ(result.error->what, "cannot flush");
+}
+
+TEST_P(PipelineLifecycle, EverySinkThatCannotFinishIsNamed) {
+  ScriptedSource source(false, frames_then_end(2));
+  RecordingSink other;
+  world_.sinks.push_back(&other);
+  world_.sink.finish_result = fail("cannot flush", "a.csv", "it is in a.csv.unfinished");
+  other.finish_result = fail("cannot rename", "b.csv");
+  const RunResult result = world_.run(source);
+  ASSERT_TRUE(result.error);
+  EXPECT_EQ(result.error->message(), "a.csv: cannot flush (it is in a.csv.unfinished); b.csv: cannot rename");
 }
 
 TEST_P(PipelineLifecycle, UnreadableFramesAreSkippedAndCounted) {

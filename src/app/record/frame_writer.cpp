@@ -2,6 +2,7 @@
 #include "app/record/frame_writer.h"
 
 #include <filesystem>
+#include <functional>
 
 #include "drivers/lcm/wire.h"
 #include "io/lcm/lcm_log_writer.h"
@@ -14,7 +15,8 @@ namespace {
 
 class LogFrameWriter : public FrameWriter {
  public:
-  LogFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<MessageSink> log)
+  /// `path`: gives the path of the file or of the set of files that `log` writes.
+  LogFrameWriter(std::function<std::string()> path, const FrameWriterOptions& options, std::unique_ptr<MessageSink> log)
       : path_(std::move(path)), options_(options), log_(std::move(log)) {}
 
   Result<void> write(const RgbdFrame& frame) override {
@@ -23,10 +25,10 @@ class LogFrameWriter : public FrameWriter {
     return log_->send(options_.channel, encode_message(*message), frame.utime).map([&] { ++written_; });
   }
   Result<void> finish() override { return written_ > 0 ? log_->finish() : Result<void>(); }
-  std::string name() const override { return "LCM log " + path_; }
+  std::string name() const override { return "LCM log " + path_(); }
 
  private:
-  std::string path_;
+  std::function<std::string()> path_;
   FrameWriterOptions options_;
   std::unique_ptr<MessageSink> log_;
   std::int64_t written_ = 0;
@@ -34,8 +36,8 @@ class LogFrameWriter : public FrameWriter {
 
 class McapFrameWriter : public FrameWriter {
  public:
-  McapFrameWriter(std::string path, const FrameWriterOptions& options, std::unique_ptr<mcap::McapWriter> file)
-      : path_(std::move(path)), options_(options), file_(std::move(file)) {}
+  McapFrameWriter(const FrameWriterOptions& options, std::unique_ptr<mcap::McapWriter> file)
+      : options_(options), file_(std::move(file)) {}
 
   Result<void> write(const RgbdFrame& frame) override {
     ros::Scene scene;
@@ -57,10 +59,9 @@ class McapFrameWriter : public FrameWriter {
     return mcap::write_scene(*file_, scene).map([&] { ++written_; });
   }
   Result<void> finish() override { return written_ > 0 ? file_->finish() : Result<void>(); }
-  std::string name() const override { return "MCAP file " + path_; }
+  std::string name() const override { return "MCAP file " + file_->path(); }
 
  private:
-  std::string path_;
   FrameWriterOptions options_;
   std::unique_ptr<mcap::McapWriter> file_;
   std::int64_t written_ = 0;
@@ -107,18 +108,19 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());
-    return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+    return std::make_unique<LogFrameWriter>([path] { return path; }, options, std::move(*log));
   }
   if (is_log_path(path)) {
     auto log = LcmLogWriter::create(path, options.overwrite);
     if (!log) return tl::unexpected(log.error());
-    return std::make_unique<LogFrameWriter>(path, options, std::move(*log));
+    const LcmLogWriter& file = **log;
+    return std::make_unique<LogFrameWriter>([&file] { return file.path(); }, options, std::move(*log));
   }
 
   if (is_mcap_path(path)) {
     auto file = mcap::McapWriter::create(path, options.overwrite);
     if (!file) return tl::unexpected(file.error());
-    return std::make_unique<McapFrameWriter>(path, options, std::move(*file));
+    return std::make_unique<McapFrameWriter>(options, std::move(*file));
   }
 
   // Any other name is a folder for a recording.

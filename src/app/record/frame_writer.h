@@ -21,7 +21,8 @@ class FrameWriter {
   /// Call it after the last frame. On return, everything is on the disk under its final name. If no frame was written,
   /// nothing is left on the disk.
   virtual Result<void> finish() = 0;
-  /// The name of the destination for messages, such as "LCM log /data/a.lcmlog".
+  /// The name of the destination for messages, such as "LCM log /data/a.lcmlog". After finish() failed, it names the
+  /// file where the frames are.
   virtual std::string name() const = 0;
 };
 

@@ -18,6 +18,7 @@
 #include "app/shared/outputs.h"
 #include "app/shared/pipe_readers.h"
 #include "app/shared/run_inputs.h"
+#include "core/both.h"
 #include "io/data_files.h"
 #include "pipeline/service_manager.h"
 
@@ -222,7 +223,10 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   CopyResult result = copy_frames(*source->source, **writer, options, stop, clock, std::cerr);
 
   // Close the file even after an error, so that what was recorded until then is complete.
-  if (const auto finished = (*writer)->finish(); !finished && !result.error) result.error = finished.error();
+  Result<void> ended;
+  if (result.error) ended = tl::unexpected(*result.error);
+  ended = both(std::move(ended), (*writer)->finish());
+  if (!ended) result.error = ended.error();
   if (!result.error && !result.stopped) result.error = failure_of(result, source->source->name(), live);
   if (result.error) std::cerr << command << ": " << result.error->message() << "\n";
   std::cerr << command << ": " << counts(result, (*writer)->name()) << (result.stopped ? ", stopped\n" : "\n");

@@ -59,6 +59,10 @@ Result<void> check_source(const SourceFiles& source, const Output& output, const
   if (source.set_of_logs && log && place.is_entry_of(Place(source.folder)))
     return refuse(output, "would become a part of the source " + source.name, "choose another folder");
 
+  // Refuse a recording within the source, whose images could be taken for the source's.
+  if (output.kind == Output::Kind::recording && !source.folder.empty() && place.lies_in(Place(source.folder)))
+    return refuse(output, "lies in the source " + source.name, "choose a folder elsewhere");
+
   // Refuse a folder that is the source or contains it.
   if (!is_folder(output.kind)) return {};
   const std::vector<std::string>& whole =

@@ -36,7 +36,8 @@ struct Output {
 /// Call it before the first output is opened. Refuses an output
 /// - that is an input or another output, even under another name (Place);
 /// - that is a file of the source, lies in one of its image folders, or as a folder is or contains the source. A new
-///   file or folder next to the files of a recording is allowed;
+///   file or folder of images next to the files of a recording is allowed;
+/// - that is a recording and lies in the folder of the source;
 /// - that is a folder of images and holds images of a recording;
 /// - that exists, unless `overwrite`. A folder of images counts as existing if it contains images of frames.
 /// Devices are never refused; pipes and descriptors are refused only if they are an input or another output.

@@ -1,5 +1,6 @@
 #include "app/sim/object_files.h"
 
+#include "core/both.h"
 #include "core/format.h"
 #include "io/obj_file.h"
 
@@ -65,8 +66,8 @@ Result<void> ObjectFiles::write(const synthetic::SyntheticSource& source, std::i
 }
 
 Result<void> ObjectFiles::finish() {
-  auto finished = poses_.finish().and_then([&] { return grasps_.finish(); });
-  for (RowFile& rows : contacts_) finished = finished.and_then([&] { return rows.finish(); });
+  auto finished = both(poses_.finish(), grasps_.finish());
+  for (RowFile& rows : contacts_) finished = both(std::move(finished), rows.finish());
   return finished;
 }
 

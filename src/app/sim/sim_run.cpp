@@ -7,6 +7,7 @@
 #include "app/record/frame_writer.h"
 #include "app/shared/outputs.h"
 #include "app/sim/object_files.h"
+#include "core/both.h"
 #include "core/clock.h"
 #include "drivers/synthetic/synthetic_source.h"
 #include "io/hand/hand_json.h"
@@ -151,8 +152,8 @@ Result<std::int64_t> run_sim(const SimOptions& options,
 
   if (done == 0) return fail("no frame was rendered, so nothing is written", "sim:" + options.spec);
   auto finished = (*writer)->finish();
-  for (HandFiles& files : *hand_files) finished = finished.and_then([&] { return files.finish(); });
-  if (*object_files) finished = finished.and_then([&] { return (*object_files)->finish(); });
+  for (HandFiles& files : *hand_files) finished = both(std::move(finished), files.finish());
+  if (*object_files) finished = both(std::move(finished), (*object_files)->finish());
   if (!finished) return tl::unexpected(finished.error());
   return done;
 }

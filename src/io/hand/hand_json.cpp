@@ -75,7 +75,7 @@ Result<std::string> parent_name(const Object& object) {
 }
 
 Result<JointDof> parse_dof(const Json& json, const std::string& where) {
-  if (!json.is_object()) return fail("\"dofs\" holds " + json.dump(), where, "it must hold objects");
+  if (!json.is_object()) return fail("\"dofs\" holds " + json_fields::shown(json), where, "it must hold objects");
   Object object{json, where};
   const auto name = object.text("name");
   if (!name) return tl::unexpected(name.error());
@@ -173,7 +173,7 @@ Result<ProfileOrigin> parse_origin(const Object& object) {
   if (found == object.json.end() || *found == false) return ProfileOrigin::measured;
   if (*found == true) return ProfileOrigin::mean;
   if (*found == "fitted") return ProfileOrigin::fitted;
-  return fail("\"mean_hand\" is " + found->dump(), object.where, "it must be true, false or \"fitted\"");
+  return fail("\"mean_hand\" is " + json_fields::shown(*found), object.where, "it must be true, false or \"fitted\"");
 }
 
 Result<int> parse_index(const Object& object, const ParentNames& known) {
@@ -229,7 +229,8 @@ Result<HandProfile> profile_from(const Json& json, const std::string& path) {
   // Read the segments, which may be in any order.
   ParentNames parents;
   for (const Json& entry : json.at("segments")) {
-    if (!entry.is_object()) return fail("\"segments\" holds " + entry.dump(), path, "it must hold objects");
+    if (!entry.is_object())
+      return fail("\"segments\" holds " + json_fields::shown(entry), path, "it must hold objects");
     const auto index = parse_index({entry, path}, parents);
     if (!index) return tl::unexpected(index.error());
     const Object object{entry, path + ": segment " + std::string(kSegmentNames[*index])};

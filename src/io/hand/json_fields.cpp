@@ -26,7 +26,7 @@ tl::unexpected<Error> bad(const Object& object, const char* key, const std::stri
 }
 
 Result<double> checked(const Object& object, const char* key, const Json& value, double lo, double hi) {
-  if (!value.is_number()) return bad(object, key, "is " + value.dump() + ", not a number", range_text(lo, hi));
+  if (!value.is_number()) return bad(object, key, "is " + shown(value) + ", not a number", range_text(lo, hi));
   const double number = value.get<double>();
   if (!(number >= lo && number <= hi))  // rejects NaN, too
     return bad(object, key, "is " + value.dump(), range_text(lo, hi));
@@ -42,6 +42,10 @@ std::string place_in(const std::string& text, std::size_t byte) {
 }
 
 }  // namespace
+
+std::string shown(const Json& value) {
+  return value.is_structured() ? std::string("an ") + value.type_name() : value.dump();
+}
 
 Result<Json> read_json(const std::string& path) {
   return read_text(path).and_then([&](const std::string& text) { return parse_json(text, path); });
@@ -91,13 +95,13 @@ Result<std::vector<double>> Object::numbers(const char* key, std::size_t count, 
 
 Result<std::string> Object::text(const char* key) const {
   if (!has(key)) return bad(*this, key, "is missing", "a text");
-  if (!json.at(key).is_string()) return bad(*this, key, "is " + json.at(key).dump(), "a text");
+  if (!json.at(key).is_string()) return bad(*this, key, "is " + shown(json.at(key)), "a text");
   return json.at(key).get<std::string>();
 }
 
 Result<bool> Object::boolean(const char* key) const {
   if (!has(key)) return bad(*this, key, "is missing", "true or false");
-  if (!json.at(key).is_boolean()) return bad(*this, key, "is " + json.at(key).dump(), "true or false");
+  if (!json.at(key).is_boolean()) return bad(*this, key, "is " + shown(json.at(key)), "true or false");
   return json.at(key).get<bool>();
 }
 

@@ -10,6 +10,9 @@ namespace barehand::json_fields {
 
 using Json = nlohmann::json;
 
+/// The value for a message. Lists and objects are not written out, since they may be long, and nested without limit.
+std::string shown(const Json& value);
+
 /// Reads and parses a file. Errors: a missing file, or a syntax error with its line and column.
 Result<Json> read_json(const std::string& path);
 /// Parses a text. `where`: origin of the text, for messages.

@@ -35,12 +35,12 @@ struct ParsedLine {
 bool within(double value, double largest) { return std::abs(value) <= largest; }
 
 std::optional<ParsedLine> parse_line(std::string_view text) {
-  // Read the number and the time of the frame, which must be plausible.
+  // Read the number of the frame, which must be plausible, and its time.
   const auto fields = split_fields(text);
   ParsedLine line;
   if (fields.size() != kColumns || !parse_number(fields[0], line.number) || !parse_number(fields[1], line.timestamp))
     return {};
-  if (line.number < -kLargestNumber || line.number > kLargestNumber || !within(line.timestamp, kLargestTime)) return {};
+  if (line.number < -kLargestNumber || line.number > kLargestNumber || !std::isfinite(line.timestamp)) return {};
 
   // Read the segment by its name.
   const auto segment = segment_from_name(fields[2]);
@@ -128,6 +128,9 @@ Result<ResultTable> read_table(const std::string& path) {
     // Add the line to its frame; a malformed last line was cut short and is left out.
     const auto line = parse_line(text);
     if (!line && !ended) return builder.finish(true);
+    if (line && !within(line->timestamp, kLargestTime))
+      return fail(formatted("line %d has the time stamp %.6g", number, line->timestamp), path,
+                  too_late(line->timestamp, StampUnit::seconds));
     const std::string complaint = line ? builder.add(*line) : "is \"" + text + "\"";
     if (!complaint.empty())
       return fail("line " + std::to_string(number) + ": " + complaint, path, "see docs/formats.md for the columns");

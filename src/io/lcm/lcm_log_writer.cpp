@@ -49,7 +49,10 @@ Result<std::unique_ptr<LcmLogWriter>> LcmLogWriter::create(const std::string& pa
 Result<void> LcmLogWriter::finish() {
   if (!log_) return {};
   log_.reset();
-  return file_.finish();
+  const std::string draft = file_.draft();
+  auto finished = file_.finish();
+  if (!finished) path_ = draft;
+  return finished;
 }
 
 Result<void> LcmLogWriter::send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) {

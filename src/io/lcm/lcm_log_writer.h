@@ -35,6 +35,8 @@ class LcmLogWriter : public MessageSink {
   /// Closes the log and gives it its name, even if it has no events. Nothing can be sent afterwards.
   Result<void> finish() override;
 
+  /// The path as given; after finish() failed, that of the draft, where the events are.
+  const std::string& path() const { return path_; }
   std::int64_t events() const { return events_; }
   std::int64_t bytes() const { return good_; }
   /// Whether the last event failed because the disk was full; there may be room again.

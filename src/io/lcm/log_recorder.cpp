@@ -117,8 +117,7 @@ void LogRecorder::run(LcmLogWriter& log) {
   }
 
   const RecorderState done = close(written && log.events() == 0);
-  log_->info("recorded {} frames to {}/{}, {:.1f} s, {} dropped", done.frames, done.folder, done.file, done.seconds,
-             done.dropped);
+  log_->info("recorded {} frames to {}, {:.1f} s, {} dropped", done.frames, log.path(), done.seconds, done.dropped);
   if (done.failed)
     log_->error("{}; tracking goes on", done.note);
   else if (!done.note.empty())

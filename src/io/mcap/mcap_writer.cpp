@@ -312,7 +312,9 @@ Result<void> McapWriter::finish() {
     file_.discard();
     return result;
   }
+  const std::string draft = file_.draft();
   const auto named = file_.finish();
+  if (!named) path_ = draft;
   return result ? named : result;
 }
 

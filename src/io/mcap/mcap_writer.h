@@ -39,6 +39,8 @@ class McapWriter {
   Result<void> write(std::span<const NewMessage> messages, std::uint64_t time, std::uint32_t sequence);
   /// Writes the remaining messages and the index, and gives the file its name. Nothing can be written afterwards.
   Result<void> finish();
+  /// The path as given; after the file could not get its name, that of the draft, where the messages are.
+  const std::string& path() const { return path_; }
 
  private:
   using Bytes = std::vector<std::uint8_t>;
@@ -68,7 +70,7 @@ class McapWriter {
   Result<void> append(const Bytes& bytes);
   void start_write_back();
 
-  const std::string path_;
+  std::string path_;
   AtomicFile file_;
   int descriptor_;                  // descriptor of the file; -1 when it is finished
   std::uint64_t good_ = 0;          // size of the file up to the last complete chunk

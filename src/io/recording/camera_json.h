@@ -19,8 +19,6 @@ struct CameraFile {
 };
 
 /// Reads a camera.json. An error names the file and the key that is missing or has a value that no camera can have.
-/// Coefficients of distortion are found under the names that ROS, OpenCV, Kalibr, the Azure Kinect and librealsense
-/// give them.
 Result<CameraFile> read_camera_json(const std::string& path);
 
 }  // namespace barehand

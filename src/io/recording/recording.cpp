@@ -1,6 +1,7 @@
 // Opens a recording folder (its camera, images and time stamps), and reads, checks and undistorts its frames.
 #include "io/recording/recording.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/format.h"
@@ -35,6 +36,15 @@ std::vector<std::int64_t> times_of(const std::vector<StampedFile>& files) {
   return times;
 }
 
+/// What is suspicious about the unit of time stamps in any order, by unlikely_steps(); "" if nothing is.
+std::string unlikely_times(std::vector<std::int64_t> times) {
+  if (times.empty()) return "";
+  std::ranges::sort(times);
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  return unlikely_steps(std::move(steps), times.back(), StampUnit::seconds);
+}
+
 /// Lists the frames of depth.txt with their colour images, and marks the frames that their time stamps rule out.
 void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
   // Assign a colour image to each depth image.
@@ -56,6 +66,12 @@ void list_frames(const std::vector<StampedFile>& depth, Recording& recording) {
     if (const auto used = order.number(file.utime, number); !used) entry.fault = used.error().message();
     recording.entries.push_back(std::move(entry));
   }
+
+  // Say why most frames have no colour if the stamps of rgb.txt explain it.
+  const auto coloured = std::ranges::count_if(pairs.colour, [](const auto& found) { return found.has_value(); });
+  if (const std::string unlikely = unlikely_times(times_of(colour));
+      !unlikely.empty() && 2 * coloured < std::ssize(depth))
+    recording.warnings.push_back(recording.directory + "/rgb.txt: " + unlikely + "; most depth is used without colour");
 
   // Pass on what is suspicious about the time stamps as a whole.
   for (const std::string& warning : order.take_last_warnings())

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/both.h"
 #include "io/hand/hand_json.h"
 #include "io/hand/path_of_hand.h"
 
@@ -31,8 +32,7 @@ Result<void> ResultTableSink::consume(const TrackedFrame& tracked) {
 Result<void> ResultTableSink::finish() {
   Result<void> result;
   if (frames_ == 0) return result;
-  for (TableWriter& writer : writers_)
-    if (auto finished = writer.finish(); !finished && result) result = std::move(finished);
+  for (TableWriter& writer : writers_) result = both(std::move(result), writer.finish());
   return result;
 }
 
@@ -85,12 +85,15 @@ Result<void> SaveHandSink::consume(const TrackedFrame& tracked) {
 }
 
 Result<void> SaveHandSink::finish() {
-  Result<void> result = fail("no hand was tracked, nothing to save", path_, "hold the open hand before the sensor");
+  Result<void> result;
+  bool tracked = false;
   for (std::size_t k = 0; k < profiles_.size(); ++k) {
     if (!profiles_[k]) continue;
-    result = save_profile(*profiles_[k], path_of_hand(path_, static_cast<int>(k), profiles_[k]->handedness));
-    if (!result) return result;
+    tracked = true;
+    const std::string path = path_of_hand(path_, static_cast<int>(k), profiles_[k]->handedness);
+    result = both(std::move(result), save_profile(*profiles_[k], path));
   }
+  if (!tracked) return fail("no hand was tracked, nothing to save", path_, "hold the open hand before the sensor");
   return result;
 }
 
