@@ -63,6 +63,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   // After an error, continue without the networks.
   if (!detection) {
     log_->warn("hands are found without networks from now on: {}", detection.error().message());
+    second_look_ = SecondLook(0);  // a look that is under way uses the detector, and is waited for
     detector_.reset();
     return nullptr;
   }
