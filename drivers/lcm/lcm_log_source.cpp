@@ -7,7 +7,6 @@
 #include <set>
 
 #include "barehand/rgbd_frame_t.hpp"
-#include "core/comma_list.h"
 #include "core/glob.h"
 #include "core/quote.h"
 #include "drivers/lcm/frame_message.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "core/comma_list.h"
 #include "core/glob.h"
 #include "core/quote.h"
 #include "io/recording/colour_pairs.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "core/comma_list.h"
+#include "core/quote.h"
 #include "io/config/config_visitor.h"
 
 namespace barehand::synthetic {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/comma_list.h"
+#include "core/quote.h"
 #include "drivers/synthetic/grasps/opposition.h"
 #include "drivers/synthetic/random_keys.h"
 #include "drivers/synthetic/sequences/grasp_planner.h"

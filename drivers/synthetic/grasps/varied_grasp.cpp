@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/comma_list.h"
+#include "core/quote.h"
 #include "drivers/synthetic/grasps/grasp_plan.h"
 #include "drivers/synthetic/random_keys.h"
 #include "drivers/synthetic/rendering/shapes.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/comma_list.h"
+#include "core/quote.h"
 #include "hand/joint_angles.h"
 
 namespace barehand {

@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "core/comma_list.h"
 #include "core/log.h"
+#include "core/quote.h"
 #include "io/file_bytes.h"
 
 namespace barehand {
