@@ -10,7 +10,7 @@ struct DetectionParams {
   std::string networks = "nets";
   int every = 1;
   int every_tracked = 1;
-  int second_look_every = 15;
+  int second_look_every = 30;
   double least_palm = 0.2;
   bool operator==(const DetectionParams&) const = default;
 };

@@ -80,13 +80,20 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
 }
 
 void Proposers::look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
-  auto seen = detected(observation.second_look.get(), observation, hand);
-  if (!seen) return;
-  const auto cost = [&](const Hypothesis& pose) {
-    return joint_cost(*hand.profile, pose.refined.pose, observation.second_look->joints);
-  };
-  if (cost(*seen) >= std::min(kTrustedJointCost, cost(followed) - kJointCostAdvantage)) return;
-  if (choice_.replaces("second look", *seen, followed, 0)) followed = std::move(*seen);
+  if (!observation.second_look) return;
+  const DetectedJoints& joints = observation.second_look->joints;
+  const auto cost = [&](const Hypothesis& pose) { return joint_cost(*hand.profile, pose.refined.pose, joints); };
+  const double least = std::min(kTrustedJointCost, cost(followed) - kJointCostAdvantage);
+  const auto agrees_better = [&](const std::optional<Hypothesis>& pose) { return pose && cost(*pose) < least; };
+
+  // Hidden joints are set last, since most looks only confirm the followed pose.
+  const auto fit = fit_to_joints(*hand.profile, joints);
+  if (!fit || fit->cost >= least) return;
+  auto seen =
+      best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
+  if (!agrees_better(seen) || !clearly_better(seen->score(), followed.score(), -kHandAdvantage)) return;
+  set_neutral_joints(observation, hand, seen);
+  if (agrees_better(seen) && choice_.replaces("second look", *seen, followed, 0)) followed = std::move(*seen);
 }
 
 void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
