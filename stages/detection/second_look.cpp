@@ -26,18 +26,16 @@ Result<std::optional<DetectedHand>> SecondLook::next(const FramePtr& frame, std:
   if (every_ > 0 && now % every_ == 0 && !look_) begin(frame, feedback, detector, workers);
 
   // Wait until the look is old enough and done.
-  if (!look_ || now - look_->begun < kDelay) return std::nullopt;
-  if (look_->found.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-  const std::int64_t age = now - look_->begun;
-  const auto [hand, centre] = std::pair(look_->hand, look_->centre);
-  Result<std::optional<DetectedHand>> found = look_->found.get();
-  look_.reset();
+  const std::int64_t age = look_ ? now - look_->begun : 0;
+  if (age < kDelay || look_->found.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  Look look = *std::exchange(look_, std::nullopt);
+  Result<std::optional<DetectedHand>> found = look.found.get();
   if (!found || !*found) return found;
 
   // Move what was found with the palm.
-  const auto place = hand < feedback.size() ? expected_hand(feedback[hand].get(), *frame) : std::nullopt;
+  const auto place = look.hand < feedback.size() ? expected_hand(feedback[look.hand].get(), *frame) : std::nullopt;
   if (age > kOutdated || !place) return std::nullopt;
-  move_by(place->centre - centre, **found);
+  move_by(place->centre - look.centre, **found);
   return found;
 }
 

@@ -38,7 +38,7 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
   }
 
   // Unless the networks are certain, the refined pose and earlier frames must confirm that it is a hand.
-  std::optional<Hypothesis> best = detected(observation.detected.get(), observation, hand);
+  std::optional<Hypothesis> best = detected(observation, hand);
   if (log_odds < kCertainHand) {
     const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
     if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
 
   // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
   const int frames = ++track.ambiguous_frames;
-  if (observation.detected) return detected(observation.detected.get(), observation, hand);
+  if (observation.detected) return detected(observation, hand);
 
   // Without a detection, try quick searches and searches near the followed pose in turn.
   const int first = (params.ambiguous_search_every + 1) / 2;
@@ -108,10 +108,9 @@ void Proposers::uncross_fingers(const HandObservation& observation, const HandMo
 }
 
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
-std::optional<Hypothesis> Proposers::detected(const DetectedHand* seen, const HandObservation& observation,
-                                              const HandModel& hand) const {
-  if (!seen) return std::nullopt;
-  const auto fit = fit_to_joints(*hand.profile, seen->joints);
+std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
+  if (!observation.detected) return std::nullopt;
+  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
   if (!fit) return std::nullopt;
   auto best =
       best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);

@@ -40,8 +40,7 @@ class Proposers {
   void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
 
  private:
-  std::optional<Hypothesis> detected(const DetectedHand* seen, const HandObservation& observation,
-                                     const HandModel& hand) const;
+  std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
   // One search of the whole observation. `attempt`: number of the search in this frame, from 0.
   std::optional<Hypothesis> search_once(const HandObservation& observation, const HandModel& hand, const Track& track,
                                         Effort effort, int attempt, std::uint32_t frame) const;
