@@ -46,6 +46,17 @@ class RecordingFolder : public testing::Test {
     ASSERT_NE(at, std::string::npos);
     test::write_text(path_ + "/" + file, text.replace(at, from.size(), to));
   }
+  /// Puts `keys` into a camera.json that is otherwise `plain`.
+  void add_to_camera(const std::string& plain, const std::string& keys) {
+    test::write_text(path_ + "/camera.json", plain);
+    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+  }
+  Recording open_with(const std::string& plain, const std::string& keys) {
+    add_to_camera(plain, keys);
+    auto recording = open_recording(path_);
+    EXPECT_TRUE(recording) << recording.error().message();
+    return *std::move(recording);
+  }
 
   test::TempFolder folder_;
   std::string path_ = folder_ / "recording";
@@ -381,15 +392,8 @@ TEST_F(RecordingFolder, ColourWhoseStampsAreInAnotherUnitIsSaid) {
 TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   record();
   const std::string plain = test::read_text(path_ + "/camera.json");
-  const auto open_with = [&](const std::string& keys) {
-    test::write_text(path_ + "/camera.json", plain);
-    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
-    auto recording = open_recording(path_);
-    EXPECT_TRUE(recording) << recording.error().message();
-    return *std::move(recording);
-  };
   const auto undistorted = [&](const std::string& keys) {
-    const Recording recording = open_with(keys);
+    const Recording recording = open_with(plain, keys);
     EXPECT_THAT(recording.warnings, ElementsAre(AllOf(HasSubstr("undistorted"), HasSubstr("rectified")))) << keys;
     return recording.undistortion != nullptr;
   };
@@ -403,7 +407,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
   EXPECT_TRUE(undistorted(R"("intrinsics": {"model": "brown_conrady", "coeffs": [-2.5, 0, 0, 0, 0]})")) << "nested";
 
   const auto refused = [&](const std::string& keys, const char* why) {
-    const Recording recording = open_with(keys);
+    const Recording recording = open_with(plain, keys);
     EXPECT_THAT(recording.warnings, ElementsAre(HasSubstr(why))) << keys;
     return recording.undistortion == nullptr;
   };
@@ -417,7 +421,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
        {R"("D": [0, 0, 0, 0, 0])", R"("D": [])", R"("k1": 0.0)", R"("distortion_model": "plumb_bob")",
         R"("model": "none", "coeffs": [0.1, 0, 0, 0, 0])", R"("D": [1e-6, 0, 0, 0, 0])",
         R"("D": [-2.5, 0, 0, 0, 0], "rectified": true)", R"("distortion": null)"}) {
-    const Recording recording = open_with(none);
+    const Recording recording = open_with(plain, none);
     EXPECT_THAT(recording.warnings, IsEmpty()) << none;
     EXPECT_FALSE(recording.undistortion) << none;
   }
@@ -426,13 +430,7 @@ TEST_F(RecordingFolder, LensDistortionIsTakenOutOrSaid) {
 TEST_F(RecordingFolder, DistortionThatIsSpelledOtherwiseIsSaidWithItsPlace) {
   record();
   const std::string plain = test::read_text(path_ + "/camera.json");
-  const auto warnings_with = [&](const std::string& keys) {
-    test::write_text(path_ + "/camera.json", plain);
-    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
-    const auto recording = open_recording(path_);
-    EXPECT_TRUE(recording) << recording.error().message();
-    return recording->warnings;
-  };
+  const auto warnings_with = [&](const std::string& keys) { return open_with(plain, keys).warnings; };
   const auto said = [&](const std::string& keys, const std::string& place) {
     EXPECT_THAT(warnings_with(keys),
                 ElementsAre(AllOf(HasSubstr("camera.json: " + place), HasSubstr("not used"), HasSubstr("k1, k2"))))
@@ -451,8 +449,7 @@ TEST_F(RecordingFolder, ACoefficientThatIsNoNumberIsRefused) {
   record();
   const std::string plain = test::read_text(path_ + "/camera.json");
   const auto refusal = [&](const std::string& keys) {
-    test::write_text(path_ + "/camera.json", plain);
-    replace("camera.json", "\"fx\"", keys + ", \"fx\"");
+    add_to_camera(plain, keys);
     return open_error();
   };
   EXPECT_THAT(refusal(R"("k1": "-0.25")"), AllOf(HasSubstr("camera.json: \"k1\" is \"-0.25\""), HasSubstr("a number")));
