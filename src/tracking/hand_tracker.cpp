@@ -36,7 +36,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
       followed ? choice_.score_with_detection(observation, person_.profile(), followed->refined) : INFINITY;
   if (score < track_.state.bad_threshold(evidence)) {
     track_.search_frames = 0;
-    proposers_.look_again(observation, person_.hand(), *followed);
+    proposers_.look_again(observation, person_.hand(), *followed, frame_);
     proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
     other = proposers_.propose_alternative(observation, person_.hand(), track_, *followed, frame_);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <optional>
 #include <span>
 
+#include "core/parallel/delayed_result.h"
 #include "stages/detection/hand_detector.h"
 
 namespace barehand {
@@ -27,18 +27,17 @@ class SecondLook {
 
  private:
   struct Look {
-    std::int64_t begun;      // number of the frame
     std::size_t hand;        // index of the hand in the feedback
     Eigen::Vector3d centre;  // where its palm was expected [m]
-    std::future<Result<std::optional<DetectedHand>>> found;
+    Result<std::optional<DetectedHand>> found;
   };
   void begin(const FramePtr& frame, std::span<const HandEstimatePtr> feedback, HandDetector& detector,
              Workers& workers);
 
   int every_;
-  std::int64_t frame_ = 0;
-  std::size_t turn_ = 0;  // the hand that is looked at next
-  std::optional<Look> look_;
+  std::int64_t frame_ = -1;         // number of the frame, from 0
+  std::size_t turn_ = 0;            // the hand that is looked at next
+  DelayedResult<Look> look_{2, 8};  // a look takes about two frames
 };
 
 }  // namespace barehand

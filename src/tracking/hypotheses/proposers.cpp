@@ -79,21 +79,12 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
   return std::nullopt;
 }
 
-void Proposers::look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
-  if (!observation.second_look) return;
-  const DetectedJoints& joints = observation.second_look->joints;
-  const auto cost = [&](const Hypothesis& pose) { return joint_cost(*hand.profile, pose.refined.pose, joints); };
-  const double least = std::min(kTrustedJointCost, cost(followed) - kJointCostAdvantage);
-  const auto agrees_better = [&](const std::optional<Hypothesis>& pose) { return pose && cost(*pose) < least; };
-
-  // Hidden joints are set last, since most looks only confirm the followed pose.
-  const auto fit = fit_to_joints(*hand.profile, joints);
-  if (!fit || fit->cost >= least) return;
-  auto seen =
-      best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
-  if (!agrees_better(seen) || !clearly_better(seen->score(), followed.score(), -kHandAdvantage)) return;
-  set_neutral_joints(observation, hand, seen);
-  if (agrees_better(seen) && choice_.replaces("second look", *seen, followed, 0)) followed = std::move(*seen);
+void Proposers::look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed,
+                           std::uint32_t frame) {
+  const auto pose = second_opinion_.next(observation, hand, followed, frame);
+  if (!pose) return;
+  auto best = best_of(Origin::detected, observation, hand, {{"detected", *pose}}, context_.params.near_iterations);
+  if (choice_.replaces("second look", *best, followed, 0)) followed = std::move(*best);
 }
 
 void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {

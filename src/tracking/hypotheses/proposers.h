@@ -6,6 +6,7 @@
 #include "tracking/hand_model.h"
 #include "tracking/hypotheses/choice.h"
 #include "tracking/hypotheses/hypothesis.h"
+#include "tracking/hypotheses/second_opinion.h"
 #include "tracking/track.h"
 #include "tracking/tracker_context.h"
 
@@ -16,7 +17,8 @@ namespace barehand {
 class Proposers {
  public:
   /// Both arguments must outlive the object.
-  Proposers(const TrackerContext& context, Choice& choice) : context_(context), choice_(choice) {}
+  Proposers(const TrackerContext& context, Choice& choice)
+      : context_(context), choice_(choice), second_opinion_(context) {}
 
   /// Returns the best pose of up to `attempts` searches of the whole observation. It stops early if further searches
   /// would not help (RestartConsensus), and does not search at all if the detected hand is explained well. None: too
@@ -31,10 +33,10 @@ class Proposers {
   std::optional<Hypothesis> propose_alternative(const HandObservation& observation, const HandModel& hand, Track& track,
                                                 const Hypothesis& followed, std::uint32_t frame) const;
 
-  /// Replaces the followed pose by that of a second look of the networks, if there is one in this frame, which explains
-  /// the frame no worse and agrees better with the joints that the networks found. Fingers that were taken for their
-  /// hidden neighbours get their places back in this way.
-  void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
+  /// Replaces the followed pose by that of a second look of the networks (SecondOpinion), if there is one and it
+  /// explains the frame no worse. Fingers that were taken for their hidden neighbours get their places back in this
+  /// way.
+  void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed, std::uint32_t frame);
 
   /// Puts crossed fingers of the followed pose side by side if that explains the frame about as well.
   void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
@@ -55,6 +57,7 @@ class Proposers {
 
   const TrackerContext& context_;
   Choice& choice_;
+  SecondOpinion second_opinion_;
 };
 
 }  // namespace barehand

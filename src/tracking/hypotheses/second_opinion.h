@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/parallel/delayed_result.h"
+#include "tracking/hand_model.h"
+#include "tracking/hypotheses/hypothesis.h"
+#include "tracking/tracker_context.h"
+
+namespace barehand {
+
+/// Examines whether the joints of a second look (stages/detection/second_look.h) give a better pose than the followed
+/// one. Mostly they do not. It takes as long as several frames, and is done beside the tracking
+/// (Workers::run_in_background). Not thread-safe.
+class SecondOpinion {
+ public:
+  /// `context` must outlive the object.
+  explicit SecondOpinion(const TrackerContext& context) : context_(context) {}
+
+  /// Examines the second look of frame number `frame`, if there is one. Returns the pose that was found in an
+  /// earlier frame, moved with the palm of the followed pose since then; in that frame it explained the data no worse
+  /// than the followed pose and agreed better with the joints. None in most frames.
+  std::optional<HandPose> next(const HandObservation& observation, const HandModel& hand, const Hypothesis& followed,
+                               std::uint32_t frame);
+
+ private:
+  /// A pose that is better than the followed pose of the same frame.
+  struct Better {
+    HandPose pose, followed;
+  };
+  void examine(const HandObservation& observation, const HandModel& hand, const Hypothesis& followed,
+               std::uint32_t frame);
+
+  const TrackerContext& context_;
+  DelayedResult<std::optional<Better>> better_{2, 8};
+};
+
+}  // namespace barehand
