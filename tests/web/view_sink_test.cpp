@@ -30,7 +30,10 @@ TrackedFrame tracked(std::int64_t utime) {
   contacts->objects.emplace_back().id = 7;
   out.contacts = contacts;
   out.grasps = std::make_shared<const FrameGrasps>(1);
-  out.estimates.push_back(std::make_shared<const HandEstimate>(estimate_of(*test::adult_hand(), {}, utime)));
+  static const auto profile = test::adult_hand();  // that of every frame, so that the skin stays the same
+  HandEstimate estimate = estimate_of(*profile, {}, utime);
+  estimate.profile = profile;
+  out.estimates.push_back(std::make_shared<const HandEstimate>(std::move(estimate)));
   return out;
 }
 
