@@ -49,11 +49,9 @@ function(barehand_library name)
     target_precompile_headers(barehand_${name} REUSE_FROM barehand_headers)
   endif()
 
-  # Compile several files at once where headers take most of the time. Not where numbers are computed: there, what the
-  # compiler inlines, and with it the last digit, would depend on which files are neighbours.
-  if(folder MATCHES "^(src/(app|core|evaluation|io|pipeline|sensor)|drivers)")
-    set_target_properties(barehand_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  endif()
+  # The headers take most of the time of a file, so compile several files at once. Names in the unnamed namespaces of a
+  # library's files must therefore differ.
+  set_target_properties(barehand_${name} PROPERTIES UNITY_BUILD ${BAREHAND_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # barehand_test(core SOURCES a_test.cpp ... DEPS lib ...) adds one test program, whose test cases ctest runs one by one.

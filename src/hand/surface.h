@@ -19,6 +19,9 @@ struct SegmentSurface {
 };
 using HandSurface = std::array<SegmentSurface, kSegmentCount>;
 
+/// Points of a surface that are closer to the camera than this are ignored, since no depth sensor sees them [m].
+inline constexpr float kNearestSeen = 0.01f;
+
 /// The paper's skin (Sec. 3.1): tapered cylinders around the bones with a spherical cap on each fingertip. The palm,
 /// which the paper does not observe, gets an elliptic slab of the profile's width, thickness and flesh offset. The
 /// surface is open where segments meet. Every segment gets exactly `points_per_segment` (> 0) evenly spread points and

@@ -4,6 +4,7 @@
 
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
+#include "math/square.h"
 #include "stages/refinement/residual_moments.h"
 
 namespace barehand {
@@ -37,8 +38,6 @@ constexpr float kFacing = 0.3f;         // smallest cosine of the viewing angle:
 constexpr double kDamping = 1e-3;       // Levenberg-Marquardt damping, relative to the diagonal
 constexpr double kLongestStep = 0.010;  // largest shift of a segment in one step [m]
 constexpr double kLargestTurn = 17 * kDegree;  // largest rotation of a segment in one step
-
-double sq(double x) { return x * x; }
 
 // Whether the vertex lies between the palm and a finger. The thumb is excluded, since it moves freely about its root.
 bool at_knuckle(const SkinVertex& v) {
@@ -96,8 +95,8 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
   residuals_ = 0;
 
   // Set the noise of the residuals, and prepare the sums over the pose.
-  const double sigma_sq = sq(kSigmaSkin) + sq(kSigmaNoise * observation.noise);
-  const double robust_sq = sq(kRobustSkin) + sq(kRobustNoise * observation.noise);
+  const double sigma_sq = square(kSigmaSkin) + square(kSigmaNoise * observation.noise);
+  const double robust_sq = square(kRobustSkin) + square(kRobustNoise * observation.noise);
   const bool joints_move = !model.joints_are_known();
   ResidualMoments poses(frame.pose);
 
@@ -110,10 +109,10 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     // Give vertices near joints less weight: skin folds and bulges there in the same way in all frames, and this error
     // would shift the estimated joints.
     const double folds = joints_move && at_knuckle(v) ? kKnuckleFolds : kFolds;
-    const double w = c.weight / sigma_sq * sq(robust_sq / (robust_sq + sq(r))) / fold_penalty(v, folds);
+    const double w = c.weight / sigma_sq * square(robust_sq / (robust_sq + square(r))) / fold_penalty(v, folds);
     poses.add(v, c.model, c.normal, r, static_cast<float>(w));
 
-    squares_ += sq(r);
+    squares_ += square(r);
     ++residuals_;
 
     // Find the sums of the vertex, or create them at its first residual.
@@ -141,7 +140,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
     // Add the residual to the vertex's sums. The derivative with respect to its offset is 1.
     sums.oo += w;
     sums.os += w * by_weight;
-    sums.ss += w * sq(by_weight);
+    sums.ss += w * square(by_weight);
     sums.g_o -= w * r;
     sums.g_s -= w * by_weight * r;
     sums.ao += w * a;
@@ -156,7 +155,7 @@ void ScanFrameEquations::add_skin(const ScanFrame& frame, const ScanModel& model
 
 void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model,
                                     const std::array<JointLimits, kSegmentCount>& limits, GaussianTree& tree) {
-  const double w_gap = 1 / sq(kSigmaGap);
+  const double w_gap = 1 / square(kSigmaGap);
 
   // Add the penalty for the gap between the two points of each joint (paper, Eq. 5).
   for (int s = 1; s < kSegmentCount; ++s) {
@@ -180,7 +179,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     // rotation keeps a hidden joint in place.
     const JointJacobians J_angles = joint.of_angles(), J_turn = joint.of_turn();
     const AngleExcess excess = joint.excess(limits[s]);
-    const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / sq(kSigmaAngle);
+    const Matrix3d W = Matrix3d(excess.counts.asDiagonal()) / square(kSigmaAngle);
     const Matrix3d J_rest = -joint.d_angles;  // a rotation of the rest pose reduces the joint's angles
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W);
 
@@ -188,7 +187,7 @@ void ScanFrameEquations::add_joints(const HandPose& pose, const ScanModel& model
     sums.g.tail<3>() = -J_rest.transpose() * (W * excess.angles);
     sums.parent.rightCols<3>() = J_angles.parent.transpose() * W * J_rest;
     sums.child.rightCols<3>() = J_angles.child.transpose() * W * J_rest;
-    tree.add<3>(s, J_turn.child, J_turn.parent, Vector3d::Zero(), Matrix3d::Identity() / sq(kSigmaTurn));
+    tree.add<3>(s, J_turn.child, J_turn.parent, Vector3d::Zero(), Matrix3d::Identity() / square(kSigmaTurn));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "person/scan_prior.h"
 
+#include "math/square.h"
 #include "person/skin_sections.h"
 
 namespace barehand {
@@ -25,8 +26,6 @@ constexpr double kMeanOffset = 0.00012;   // mean offset of a segment's skin [m]
 constexpr double kMeanLever = 0.02;       // lever arm that converts the skin's mean rotation to an offset [m]
 constexpr double kMiddleWeight = 0.3;     // skinning weight in the middle of a bone
 constexpr double kSmoothWeight = 0.3;     // difference of the skinning weights along an edge
-
-double sq(double x) { return x * x; }
 
 // Whether the vertex follows one bone alone, away from the flesh of palm and thumb.
 bool in_middle_of_bone(const SkinVertex& v) { return v.weight_b == 0 && v.a != kPalm && v.a != segment_of(0, 0); }
@@ -65,8 +64,8 @@ class Prior {
       Eigen::Matrix<double, 3, 6> J;
       J << Matrix3d::Identity(), -start_.rest[s];
       const Eigen::Matrix<double, 6, 1> moved = (Eigen::Matrix<double, 6, 1>() << in_parent, in_segment).finished();
-      out_.add<6>(first, J.transpose() * J / sq(kBetweenBones));
-      out_.g.segment<6>(first) -= J.transpose() * (J * moved) / sq(kBetweenBones);
+      out_.add<6>(first, J.transpose() * J / square(kBetweenBones));
+      out_.g.segment<6>(first) -= J.transpose() * (J * moved) / square(kBetweenBones);
 
       // The axes of the joint stay near their initial directions.
       const Vector3d turn = log_so3(start_.rest[s].transpose() * model_.rest[s]);
@@ -166,8 +165,8 @@ class Prior {
   double weight_change(int i) const { return model_.skin.vertices[i].weight_b - vertex(i).weight_b; }
 
   void add_one(int unknown, double value, double deviation) {
-    out_.add(unknown, unknown, 1 / sq(deviation));
-    out_.g[unknown] -= value / sq(deviation);
+    out_.add(unknown, unknown, 1 / square(deviation));
+    out_.g[unknown] -= value / square(deviation);
   }
 
   // Adds the squares of `residuals`, which depend on many unknowns; J has one column for each of `unknowns`.
@@ -184,7 +183,7 @@ class Prior {
   // Adds the square of x - sign * y, where x and y are the current values of the unknowns i and j, at half weight
   // because every edge occurs twice.
   void add_difference(int i, int j, double x, double y, double sign, double deviation) {
-    const double w = 0.5 / sq(deviation), difference = x - sign * y;
+    const double w = 0.5 / square(deviation), difference = x - sign * y;
     out_.add(i, i, w);
     out_.add(j, j, w);
     out_.add(i, j, -sign * w);

@@ -7,7 +7,7 @@ namespace {
 
 // Solves the equations of a scan by preconditioned conjugate gradients.
 
-constexpr double kDamping = 1e-3;      // Levenberg-Marquardt damping, relative to the diagonal
+constexpr double kScanDamping = 1e-3;  // Levenberg-Marquardt damping, relative to the diagonal
 constexpr double kTolerance = 1e-6;    // size of the final residual, relative to the right-hand side
 constexpr int kMostIterations = 1000;  // about a hundred are usual
 constexpr int kJoints = ScanVariables::kJoints;
@@ -49,8 +49,8 @@ ScanSystem::ScanSystem(const ScanEquations& equations, std::span<const ScanFrame
 
   // For the joints, the damping is relative to what the elimination leaves of their equations, because the poses
   // explain nearly all of them.
-  Eigen::VectorXd damping = kDamping * H_.diagonal();
-  damping.head(kJoints) = kDamping * joints.diagonal();
+  Eigen::VectorXd damping = kScanDamping * H_.diagonal();
+  damping.head(kJoints) = kScanDamping * joints.diagonal();
   H_ += Eigen::SparseMatrix<double>(damping.asDiagonal());  // damps unknowns that no frame determines, too
 
   joints.diagonal() += damping.head(kJoints);

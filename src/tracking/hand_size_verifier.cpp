@@ -13,7 +13,7 @@ namespace {
 
 // Sizes of the copies relative to the profile: four that other people's hands have, then two that only a wrong depth
 // unit explains.
-constexpr std::array<double, 6> kSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
+constexpr std::array<double, 6> kComparedSizes = {0.78, 0.88, 1.14, 1.28, 0.55, 1.8};
 // Ratio by which the hands of two adults never differ; a larger one means a wrong depth unit or a wrong profile.
 constexpr double kImpossibleRatio = 1.4;
 
@@ -27,7 +27,7 @@ HandPose scaled(const HandProfile& hand, HandPose pose, double size) {
 }  // namespace
 
 void HandSizeVerifier::make_candidates() {
-  for (const double size : kSizes)
+  for (const double size : kComparedSizes)
     candidates_.push_back(
         {size, std::make_unique<Refinement>(params_, std::make_shared<const HandProfile>(scaled(*profile_, size)),
                                             std::make_shared<const Skin>(scaled(*skin_, size)))});

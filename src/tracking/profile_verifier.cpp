@@ -13,7 +13,7 @@ namespace {
 
 // When searches with the profile find no hand, scaled copies of it are tried, of these sizes relative to the profile. A
 // deviation of a tenth needs no copy, since a search with the profile itself still finds the hand.
-constexpr std::array<double, 6> kSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};
+constexpr std::array<double, 6> kOtherSizes = {0.8, 2, 1.25, 0.5, 0.65, 1.5};
 // Another size is tried after every kOften failed searches; from kOftenUntil failures on, after every kSeldom, since a
 // region in which no hand was found for so long most likely shows none.
 constexpr int kOften = 10, kSeldom = 1000, kOftenUntil = 120;
@@ -197,7 +197,7 @@ void ProfileVerifier::nothing_found(const HandObservation& observation, double s
   if (failures_ % (failures_ < kOftenUntil ? kOften : kSeldom) != 0) return;
 
   // Search with a smaller or a larger copy.
-  const double size = kSizes[tries_++ % kSizes.size()];
+  const double size = kOtherSizes[tries_++ % kOtherSizes.size()];
   const auto other = tracker_of_size(size)->search(observation, Effort::quick, 1);
   const double lost_score = std::max(1.0, size) * params_.loss.lost_score;  // scores grow with the size of the hand
   if (!other || other->score() > lost_score || !clearly_better(other->score(), score)) return;

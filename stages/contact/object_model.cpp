@@ -23,8 +23,8 @@ constexpr std::size_t kMostSurfels = 8000;
 constexpr int kMostCells = 20'000;  // number of cells that are tested for emptiness in one frame
 constexpr int kIterations = 4, kMostPoints = 250;
 constexpr double kOutlier = 0.005;  // distance to a surfel's plane at which a point has lost most of its weight [m]
-constexpr double kPointDeviation = 0.0015, kIndependent = 20;  // deviation of a point [m]; how many are independent
-constexpr double kShift = 0.003, kTurn = 0.05;                 // deviations of the predicted pose [m, rad]
+constexpr double kPointDeviation = 0.0015, kIndependent = 20;     // deviation of a point [m]; how many are independent
+constexpr double kPredictedShift = 0.003, kPredictedTurn = 0.05;  // deviations of the predicted pose [m, rad]
 
 /// A pose in single precision.
 struct Pose {
@@ -140,7 +140,8 @@ SE3 ObjectModel::align(const SE3& predicted, std::span<const SurfacePoint* const
   // Express the prediction's uncertainty as information on the shift and the turn.
   const std::size_t step = 1 + points.size() / kMostPoints;
   Vector6d information;
-  information << Eigen::Vector3d::Constant(1 / (kShift * kShift)), Eigen::Vector3d::Constant(1 / (kTurn * kTurn));
+  information << Eigen::Vector3d::Constant(1 / (kPredictedShift * kPredictedShift)),
+      Eigen::Vector3d::Constant(1 / (kPredictedTurn * kPredictedTurn));
   SE3 pose = predicted;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     // Add up the normal equations over the points and their nearest surfels.

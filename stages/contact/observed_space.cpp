@@ -4,8 +4,8 @@ namespace barehand {
 namespace {
 
 // Half the thickness of a surface: a constant part [m], and a multiple of the sensor's standard deviation.
-constexpr double kMargin = 0.003, kDeviations = 2;
-constexpr int kAround = 2;  // neighbours on each side of a pixel without depth that must have no depth either [px]
+constexpr double kEmptyMargin = 0.003, kDeviations = 2;
+constexpr int kHoleRadius = 2;  // neighbours on each side of a pixel without depth that must have no depth either [px]
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void ObservedSpace::observe(const HandObservations& observations) {
     const Intrinsics& camera = observation->frame->camera;
     views_.push_back({observation.get(), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
                       static_cast<float>(camera.cx - observation->u0), static_cast<float>(camera.cy - observation->v0),
-                      static_cast<float>(kMargin + kDeviations * observation->noise)});
+                      static_cast<float>(kEmptyMargin + kDeviations * observation->noise)});
   }
 }
 
@@ -39,12 +39,13 @@ bool ObservedSpace::blank(const Eigen::Vector3f& p) const {
   for (const View& view : views_) {
     const auto [u, v] = view.pixel_of(p);
     const Image<float>& depth = view.observation->depth;
-    if (!depth.contains(u - kAround, v - kAround) || !depth.contains(u + kAround, v + kAround)) continue;
+    if (!depth.contains(u - kHoleRadius, v - kHoleRadius) || !depth.contains(u + kHoleRadius, v + kHoleRadius))
+      continue;
 
     // Look for a measured depth around the pixel.
     in_view = true;
-    for (int y = v - kAround; y <= v + kAround; ++y)
-      for (int x = u - kAround; x <= u + kAround; ++x)
+    for (int y = v - kHoleRadius; y <= v + kHoleRadius; ++y)
+      for (int x = u - kHoleRadius; x <= u + kHoleRadius; ++x)
         if (depth.at(x, y) > 0) return false;
   }
   return in_view;

@@ -18,11 +18,11 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-constexpr float kCell = 0.004f;    // cell size of the grid in which samples are searched [m]
-constexpr int kReach = 2;          // cells to each side in which samples are searched
-constexpr float kRadius = 0.008f;  // samples nearer to each other than this share the surface around them [m]
-constexpr float kSmooth = 0.005f;  // width of the Gaussian weights of the samples' tangent planes [m]
-constexpr float kSameSide = 0.3f;  // least cosine between the normals of samples on one side of a sheet
+constexpr float kSearchCell = 0.004f;  // cell size of the grid in which samples are searched [m]
+constexpr int kSearchReach = 2;        // cells to each side in which samples are searched
+constexpr float kRadius = 0.008f;      // samples nearer to each other than this share the surface around them [m]
+constexpr float kSmooth = 0.005f;      // width of the Gaussian weights of the samples' tangent planes [m]
+constexpr float kSameSide = 0.3f;      // least cosine between the normals of samples on one side of a sheet
 // Distances from the nearest sample [m]: up to kNear, the samples' tangent planes alone give the signed distance; from
 // kFar on, the winding number alone.
 constexpr float kNear = 0.004f, kFar = 0.008f;
@@ -52,7 +52,7 @@ class SampledSolid {
   Nearby at(const Vector3f& p) const;
   float winding_number(const Vector3f& p) const;
   void measure_areas();
-  Vector3i indices(const Vector3f& p) const { return ((p - origin_) / kCell).array().floor().cast<int>(); }
+  Vector3i indices(const Vector3f& p) const { return ((p - origin_) / kSearchCell).array().floor().cast<int>(); }
   std::size_t number(const Vector3i& i) const {
     return (static_cast<std::size_t>(i.z()) * static_cast<std::size_t>(side_.y()) + static_cast<std::size_t>(i.y())) *
                static_cast<std::size_t>(side_.x()) +
@@ -71,7 +71,7 @@ SampledSolid::SampledSolid(std::span<const SurfaceSample> samples) {
   lower_ = upper_ = samples[0].p;
   for (const SurfaceSample& sample : samples) lower_ = lower_.cwiseMin(sample.p), upper_ = upper_.cwiseMax(sample.p);
   origin_ = lower_;
-  side_ = ((upper_ - lower_) / kCell).array().floor().cast<int>() + 1;
+  side_ = ((upper_ - lower_) / kSearchCell).array().floor().cast<int>() + 1;
 
   // Sort the samples into the cells of the grid.
   first_.assign(static_cast<std::size_t>(side_.cast<long>().prod()) + 1, 0);
@@ -87,7 +87,7 @@ SampledSolid::SampledSolid(std::span<const SurfaceSample> samples) {
 template <class Act>
 void SampledSolid::for_nearby(const Vector3f& p, const Act& act) const {
   const Vector3i i = indices(p);
-  const Vector3i low = (i.array() - kReach).max(0), high = (i.array() + kReach).min(side_.array() - 1);
+  const Vector3i low = (i.array() - kSearchReach).max(0), high = (i.array() + kSearchReach).min(side_.array() - 1);
   if ((low.array() > high.array()).any()) return;
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y) {
@@ -111,7 +111,7 @@ void SampledSolid::measure_areas() {
       sharing += (other.p - own.p).squaredNorm() < kRadius * kRadius && other.n.dot(own.n) > kSameSide;
     });
     constexpr float kPi = std::numbers::pi_v<float>;
-    const float area = std::min(kPi * kRadius * kRadius / static_cast<float>(sharing), kCell * kCell);
+    const float area = std::min(kPi * kRadius * kRadius / static_cast<float>(sharing), kSearchCell * kSearchCell);
     places_.row(k) = own.p.transpose();
     fluxes_.row(k) = area / (4 * kPi) * own.n.transpose();
   }

@@ -14,12 +14,12 @@ constexpr float kBandwidth = 0.006f;  // h: distance over which planes are avera
 // The surface is known where one of its points is within kAside to the side. Skin that is farther inside than kBehind
 // is behind a surface whose far side is unknown [m].
 constexpr float kAside = 0.004f, kBehind = 0.006f;
-constexpr float kInside = 0.001f;  // how far skin enters a surface at most [m]
-constexpr float kStep = 0.002f;    // distance from one tested place to the next along an unseen surface [m]
-constexpr float kDepth = 0.03f;    // how far an object may continue along the ray behind its edge [m]
+constexpr float kInside = 0.001f;      // how far skin enters a surface at most [m]
+constexpr float kTestedStep = 0.002f;  // distance from one tested place to the next along an unseen surface [m]
+constexpr float kDepth = 0.03f;        // how far an object may continue along the ray behind its edge [m]
 // The curvature of a surface where nothing is known of it [1/m], the deviation of a single normal over that of the
 // curvature, squared [m^2], the largest accepted curvature [1/m], and the distance over which it is measured [m].
-constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kAround = 0.012f;
+constexpr float kUsualBend = 1 / 0.038f, kPrior = 4e-5f, kMostBend = 60, kPlaneRadius = 0.012f;
 constexpr float kSpread = 0.25f;  // error of an unseen surface, as a fraction of its distance from the visible surface
 
 }  // namespace
@@ -102,7 +102,7 @@ NearestSurface SurfaceDistance::extend(const Vector3f& x, const Plane& plane, co
   float least = std::max(plane.height, 0.f), most = least;
   const Vector3f foot = x - least * plane.normal, way = foot - p;
   const float length = way.norm();
-  const int steps = 1 + static_cast<int>(length / kStep);
+  const int steps = 1 + static_cast<int>(length / kTestedStep);
 
   // Remember the last place that is not seen to be empty.
   Vector3f end = p;
@@ -134,7 +134,7 @@ float SurfaceDistance::bend(const SurfacePoint& p, const Vector3f& direction) co
   float count = 0, s = 0, n = 0, ss = 0, sn = 0;
   for (const SurfacePoint& point : close_) {
     const Vector3f d = point.p - p.p;
-    if (d.squaredNorm() > kAround * kAround || point.object != p.object) continue;
+    if (d.squaredNorm() > kPlaneRadius * kPlaneRadius || point.object != p.object) continue;
     const float along = d.dot(direction), turn = point.n.dot(direction);
     count += 1, s += along, n += turn, ss += along * along, sn += along * turn;
   }

@@ -14,16 +14,16 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kOrientations = 500;            // about 20 degrees apart
-constexpr std::size_t kFew = 80;              // number of points and samples with which orientations are compared
-constexpr std::size_t kLeastPoints = 25;      // least number of points around a place that is searched
-constexpr int kShifts = 4;                    // steps by which an orientation is moved into place
-constexpr int kCompared = 60, kRefined = 12;  // orientations that are compared with free space, and refined
-constexpr int kFewIterations = 6, kIterations = 12;
+constexpr int kOrientations = 500;                 // about 20 degrees apart
+constexpr std::size_t kFewPoints = 80;             // number of points and samples with which orientations are compared
+constexpr std::size_t kLeastPoints = 25;           // least number of points around a place that is searched
+constexpr int kShifts = 4;                         // steps by which an orientation is moved into place
+constexpr int kComparedPoses = 60, kRefined = 12;  // orientations that are compared with free space, and refined
+constexpr int kFewIterations = 6, kSearchIterations = 12;
 constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
-constexpr double kOnSurface = 0.006, kReach = 0.015;
+constexpr double kOnSurface = 0.006, kSearchReach = 0.015;
 constexpr std::size_t kSamples = 300;
-constexpr double kLeastShown = 0.2, kMaxInconsistent = 0.1, kLeastExplained = 0.65;
+constexpr double kLeastShownAtStart = 0.2, kMaxInconsistent = 0.1, kLeastExplained = 0.65;
 constexpr int kLeastSeen = 15;
 // Two poses are the same if they are turned by less than kSmallTurn from each other, or if less than kFewMoved of the
 // surface moves by more than kMoved [m].
@@ -65,7 +65,7 @@ bool changes_little(const KnownObject& object, const SE3& T_object_object) {
 }  // namespace
 
 bool PoseQuality::acceptable() const {
-  return visibility.shown() >= kLeastShown && visibility.seen >= kLeastSeen &&
+  return visibility.shown() >= kLeastShownAtStart && visibility.seen >= kLeastSeen &&
          visibility.inconsistent() <= kMaxInconsistent && explained >= kLeastExplained;
 }
 
@@ -100,7 +100,7 @@ SE3 ObjectSearch::place(const KnownObject& object, const Eigen::Matrix3d& R, con
   const Vector3f view = (R.transpose() * middle.normalized()).cast<float>();
   Vector3f shown = Vector3f::Zero();
   float count = 0;
-  for (std::size_t i = 0; i < std::min(kFew, object.samples.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kFewPoints, object.samples.size()); ++i)
     if (object.samples[i].n.dot(view) < 0) shown += object.samples[i].p, ++count;
   const SE3 start{R, middle - R * (shown / std::max(1.f, count)).cast<double>()};
   return fit_pose(object, few_, kScale / 3, start, anywhere_near(start), kFewIterations).T_camera_object;
@@ -139,7 +139,7 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
 
   // Choose a few of them.
   few_.clear();
-  const std::size_t step = around_.size() / kFew + 1;
+  const std::size_t step = around_.size() / kFewPoints + 1;
   for (std::size_t i = 0; i < around_.size(); i += step) few_.push_back(around_[i]);
   return middle;
 }
@@ -148,8 +148,8 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
 void ObjectSearch::refine(const KnownObject& object, const ObservedDepth& view, std::span<const Vector3f> points,
                           const SE3& start) {
   near_.assign(few_.begin(), few_.end());
-  view.points_near(object, start, kReach, 4 * kFew, near_);
-  const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kIterations).T_camera_object;
+  view.points_near(object, start, kSearchReach, 4 * kFewPoints, near_);
+  const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kSearchIterations).T_camera_object;
   const FoundPose pose{T, quality_of(object, view, T, points)};
   if (pose.quality.acceptable()) found_.push_back(pose);
 }
@@ -168,9 +168,9 @@ std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const
 
   // Keep the better ones by their misfit alone, then the best ones with the view compared as well.
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::nth_element(tried.begin(), tried.begin() + kCompared, tried.end(), less);
-  tried.resize(kCompared);
-  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFew).inconsistent();
+  std::nth_element(tried.begin(), tried.begin() + kComparedPoses, tried.end(), less);
+  tried.resize(kComparedPoses);
+  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFewPoints).inconsistent();
   std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
   tried.resize(kRefined);
 

@@ -6,7 +6,7 @@
 namespace barehand {
 namespace {
 
-constexpr int kThumb = 0, kMiddle = 2;
+constexpr int kThumbFinger = 0, kMiddle = 2;
 /// Mean lengths of the metacarpals from the thumb (not used here) to the little finger [mm].
 constexpr std::array<double, kFingerCount> kMetacarpal_mm = {46.2, 68.1, 64.6, 58.0, 53.7};
 /// Length of the middle metacarpal as a fraction of the distance from the wrist joint to the middle knuckle; the carpal
@@ -53,7 +53,7 @@ std::array<OpenXrJoint, kOpenXrJointCount> openxr_joints(const HandProfile& prof
 
   // Append the joints of the fingers, each from the metacarpal to the tip.
   for (int finger = 0; finger < kFingerCount; ++finger) {
-    if (finger != kThumb) *next++ = in_palm(metacarpal(profile, finger));
+    if (finger != kThumbFinger) *next++ = in_palm(metacarpal(profile, finger));
     for (int k = 0; k < 3; ++k) {
       const int s = segment_of(finger, k);
       *next++ = {pose[s], profile.segments[s].radius[0], s};

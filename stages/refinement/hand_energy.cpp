@@ -5,6 +5,7 @@
 
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
+#include "math/square.h"
 #include "stages/refinement/residual_moments.h"
 #include "stages/refinement/shape_moments.h"
 
@@ -17,9 +18,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Kind = Correspondence::Kind;
-
-double sq(double x) { return x * x; }
-float sq(float x) { return x * x; }
 
 /// Turns a correspondence into weighted residuals along up to four directions.
 class DataTerm {
@@ -48,14 +46,14 @@ class DataTerm {
   // Geman-McClure: energy s^2 d^2 / (s^2 + d^2), weight of the equivalent least squares (s^2 / (s^2 + d^2))^2.
   struct Robust {
     float scale_sq, gate_sq, information;
-    float weight(float distance_sq) const { return information * sq(scale_sq / (scale_sq + distance_sq)); }
+    float weight(float distance_sq) const { return information * square(scale_sq / (scale_sq + distance_sq)); }
     float energy(float distance_sq) const { return information * scale_sq * distance_sq / (scale_sq + distance_sq); }
   };
 
   template <class Use>
   static double add_along(const Vector3f& direction, const Vector3f& r, const Robust& robust, float share,
                           const Use& use) {
-    const float along = direction.dot(r), distance_sq = sq(along);
+    const float along = direction.dot(r), distance_sq = square(along);
     if (distance_sq > robust.gate_sq) return 0;
     use(direction, along, share * robust.weight(distance_sq));
     return share * robust.energy(distance_sq);
@@ -79,7 +77,7 @@ class DataTerm {
   double add_unexplained(const Vector3f& r, const Vector3f& normal, float share, const Use& use) const {
     if (r.squaredNorm() > unexplained_.gate_sq) return 0;
     const float along = normal.dot(r), across_share = 1 - tangential_;
-    const float distance_sq = across_share * sq(along) + tangential_ * r.squaredNorm();
+    const float distance_sq = across_share * square(along) + tangential_ * r.squaredNorm();
     const float weight = share * unexplained_.weight(distance_sq);
     use(normal, along, across_share * weight);
     if (tangential_ > 0)
@@ -94,9 +92,9 @@ class DataTerm {
     const float of_segments = (1 - v.weight_b) * trust(v.a) + v.weight_b * trust(v.b);
     return of_segments / fold_penalty(v, folds_);
   }
-  static float scale_sq(double metres, double widening) { return static_cast<float>(sq(metres * widening)); }
+  static float scale_sq(double metres, double widening) { return static_cast<float>(square(metres * widening)); }
   static float information(const EnergyParams& p, double weight) {
-    return static_cast<float>(weight / sq(p.sigma_depth));
+    return static_cast<float>(weight / square(p.sigma_depth));
   }
 
   Robust surface_, outside_, unexplained_;
@@ -142,13 +140,13 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
     // Add the penalty for the gap at the joint (paper, Eq. 5).
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
-    const Matrix3d W_gap = Matrix3d::Identity() / sq(params.sigma_gap);
+    const Matrix3d W_gap = Matrix3d::Identity() / square(params.sigma_gap);
     tree.add<3>(s, J_gap.child, J_gap.parent, joint.gap, W_gap);
-    total += joint.gap.squaredNorm() / sq(params.sigma_gap);
+    total += joint.gap.squaredNorm() / square(params.sigma_gap);
 
     // Add the penalty for angles beyond their limits and for any twist (paper, Eq. 6).
     const AngleExcess excess = joint.excess(limits[s]);
-    const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / sq(params.sigma_angle_deg * kDegree);
+    const Matrix3d W_angle = Matrix3d(excess.counts.asDiagonal()) / square(params.sigma_angle_deg * kDegree);
     tree.add<3>(s, J_angles.child, J_angles.parent, excess.angles, W_angle);
     total += excess.angles.dot(W_angle * excess.angles);
   }
@@ -160,8 +158,8 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
                        GaussianTree& tree) {
   // Pull the palm to its predicted pose in the camera frame.
   Vector6d information;
-  information << Vector3d::Constant(1 / sq(params.prior_translation)),
-      Vector3d::Constant(1 / sq(params.prior_rotation_deg * kDegree));
+  information << Vector3d::Constant(1 / square(params.prior_translation)),
+      Vector3d::Constant(1 / square(params.prior_rotation_deg * kDegree));
   const Vector6d r = boxminus(pose[kPalm], predicted[kPalm]);
   tree.H_self[kPalm].diagonal() += information;
   tree.g[kPalm] -= information.cwiseProduct(r);
@@ -169,8 +167,8 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
 
   for (int s = 1; s < kSegmentCount; ++s) {
     // An unseen joint is held more firmly than a seen one.
-    const double unseen_information = 1 / sq(params.prior_unseen_deg * kDegree);
-    const double seen_information = 1 / sq(params.prior_rotation_deg * kDegree);
+    const double unseen_information = 1 / square(params.prior_unseen_deg * kDegree);
+    const double seen_information = 1 / square(params.prior_rotation_deg * kDegree);
     const double w = seen[s] * seen_information + (1 - seen[s]) * unseen_information;
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     // Compute the rotation from the predicted joint angles to the current ones.

@@ -1,6 +1,8 @@
 // The terms of the energy that couple a hand with known objects.
 #include "stages/refinement/object_contact.h"
 
+#include "math/square.h"
+
 #include <algorithm>
 
 namespace barehand {
@@ -11,8 +13,6 @@ using Eigen::Vector3f;
 constexpr double kHidden = 0.5;  // tips that are more hidden than this show nothing of the grip
 // A grip is firm if a tip that is seen is within kTouching of the object, and none if all are beyond kApart [m].
 constexpr double kTouching = 0.0035, kApart = 0.0055;
-
-double sq(double x) { return x * x; }
 
 Vector3f point_of(const SegmentSurface& surface, std::size_t i) { return {surface.x[i], surface.y[i], surface.z[i]}; }
 
@@ -91,13 +91,13 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
       if (d >= DistanceGrid::kMargin) continue;
 
       // A tip that is not seen rests on what the hand holds if its pad, away from the back of the hand, faces that.
-      double information = 1 / (sq(params_.sigma_inside) + sq(nearby.deviation)), root = 1;
+      double information = 1 / (square(params_.sigma_inside) + square(nearby.deviation)), root = 1;
       double holds = firm * hidden[s];
       if (d > 0) {
         if (!is_tip(s)) continue;
         holds *= std::clamp(near.gradient.dot(pose[s].R.col(1)), 0.0, 1.0);
-        information = holds / (sq(params_.sigma_touch) + sq(nearby.deviation));
-        root = sq(params_.touch_scale) / (sq(params_.touch_scale) + sq(d));
+        information = holds / (square(params_.sigma_touch) + square(nearby.deviation));
+        root = square(params_.touch_scale) / (square(params_.touch_scale) + square(d));
       }
       if (is_tip(s)) {
         double& rests = result.rests[finger_of(s)];
@@ -106,9 +106,9 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
 
       // Add the distance with the weight of the robust loss.
       const Vector6d row = point_jacobian(near.point - pose[s].t).transpose() * near.gradient;
-      tree.H_self[s] += information * sq(root) * row * row.transpose();
-      tree.g[s] -= information * sq(root) * d * row;
-      result.energy += information * root * sq(d);
+      tree.H_self[s] += information * square(root) * row * row.transpose();
+      tree.g[s] -= information * square(root) * d * row;
+      result.energy += information * root * square(d);
     }
   }
   return result;

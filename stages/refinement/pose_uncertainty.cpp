@@ -6,6 +6,7 @@
 
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
+#include "math/square.h"
 
 namespace barehand {
 namespace {
@@ -18,8 +19,6 @@ using Eigen::Vector3d;
 constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
 constexpr double kRangeDeviation = 0.2887;  // standard deviation of a uniform distribution over a range of 1
 constexpr double kAnywhere = 1.0;           // standard deviation of the pose of a palm that no data shows [m, rad]
-
-double sq(double x) { return x * x; }
 
 // Standard deviations of flexion, abduction and twist about their estimates [rad]; `hidden_for`: time without data
 // [s].
@@ -38,7 +37,7 @@ void hold_joint(const JointLinearisation& joint, int s, const Vector3d& deviatio
                 GaussianTree& tree) {
   const Vector3d zero = Vector3d::Zero();
   const JointJacobians J_gap = joint.of_gap(), J_angles = joint.of_angles();
-  tree.add<3>(s, J_gap.child, J_gap.parent, zero, Matrix3d::Identity() / sq(sigma_gap));
+  tree.add<3>(s, J_gap.child, J_gap.parent, zero, Matrix3d::Identity() / square(sigma_gap));
   tree.add<3>(s, J_angles.child, J_angles.parent, zero, deviation.cwiseAbs2().cwiseInverse().asDiagonal());
 }
 
@@ -60,8 +59,8 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
 
   // Within a patch of skin the model's error is common to all pixels, so a patch counts as one measurement with the
   // deviation of the skin instead of that of a pixel.
-  const double scale =
-      kReferenceArea / sq(params_.skin_patch) * sq(energy_.sigma_depth) / sq(factor * params_.skin_deviation);
+  const double scale = kReferenceArea / square(params_.skin_patch) * square(energy_.sigma_depth) /
+                       square(factor * params_.skin_deviation);
   GaussianTree tree = refined.evidence;
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s] *= scale;
@@ -69,7 +68,7 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
   }
 
   // A palm without data may be anywhere; every other segment is held by its joint.
-  tree.H_self[kPalm].diagonal().array() += 1 / sq(kAnywhere);
+  tree.H_self[kPalm].diagonal().array() += 1 / square(kAnywhere);
   const auto limits = widened_limits(profile, energy_.limit_widening_deg * kDegree);
   for (int s = 1; s < kSegmentCount; ++s) {
     hidden_for_[s] = hidden[s] ? hidden_for_[s] + dt : 0;
@@ -82,16 +81,16 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
   // Compute the marginal covariances, and add, for every segment, the uncertainty of where its joint lies inside the
   // skin, which the data do not show.
   std::array<Matrix6d, kSegmentCount> covariance;
-  if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * sq(kAnywhere));
-  for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += sq(factor * params_.joint_deviation);
+  if (!tree.marginals(covariance)) covariance.fill(Matrix6d::Identity() * square(kAnywhere));
+  for (Matrix6d& c : covariance) c.topLeftCorner<3, 3>().diagonal().array() += square(factor * params_.joint_deviation);
   return covariance;
 }
 
 double probability_within(double radius, const Matrix3d& covariance) {
   const double mean = covariance.trace(), spread = covariance.squaredNorm();
   if (!(mean > 0)) return 1;
-  const double degrees = sq(mean) / spread;  // degrees of freedom
-  return Eigen::numext::igamma(degrees / 2, sq(radius) * mean / (2 * spread));
+  const double degrees = square(mean) / spread;  // degrees of freedom
+  return Eigen::numext::igamma(degrees / 2, square(radius) * mean / (2 * spread));
 }
 
 }  // namespace barehand

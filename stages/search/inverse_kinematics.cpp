@@ -8,6 +8,7 @@
 
 #include "hand/joint_linearisation.h"
 #include "math/angles.h"
+#include "math/square.h"
 
 namespace barehand {
 namespace {
@@ -43,8 +44,6 @@ Vector3d landmark(const HandProfile& profile, const HandPose& pose, int k) {
   const auto [s, distal] = attachment(k);
   return distal ? distal_end(profile, pose, s) : pose[s].t;
 }
-
-double square(double x) { return x * x; }
 
 /// Cauchy's cost of a squared Mahalanobis distance.
 double robust_cost(double distance_sq) { return square(kOutlier) * std::log1p(distance_sq / square(kOutlier)); }

@@ -10,8 +10,7 @@
 namespace barehand {
 namespace {
 
-constexpr float kNearest = 0.01f;  // points closer than this are ignored, since no depth sensor sees them [m]
-constexpr int kBlock = 64;         // points per block: their intermediate results fit into the first-level cache
+constexpr int kBlock = 64;  // points per block: their intermediate results fit into the first-level cache
 
 /// Intermediate results for a block of skin points.
 struct Block {
@@ -63,9 +62,9 @@ inline void project(const SegmentSurface& skin, int begin, int n, const View& vi
     const float pz = r20 * x[i] + r21 * y[i] + r22 * z[i] + tz;
     // The angle to the line of sight needs only a scalar product: n_camera . p_camera = n . (p + R^T t).
     const float away = nx[i] * (x[i] + ox) + ny[i] * (y[i] + oy) + nz[i] * (z[i] + oz);
-    const float inv = 1.0f / (pz > kNearest ? pz : kNearest);
+    const float inv = 1.0f / (pz > kNearestSeen ? pz : kNearestSeen);
     // A point with an area covers f^2 area (-n.p) / z^3 pixels of the image.
-    const bool front = (away < 0.0f) & (pz > kNearest);
+    const bool front = (away < 0.0f) & (pz > kNearestSeen);
     out.weight[i] = front ? -away * area[i] * pixels * inv * inv * inv : 0.0f;
 
     // The pixel, clamped to the border of the map.

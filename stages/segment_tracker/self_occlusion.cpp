@@ -11,7 +11,6 @@ namespace {
 
 using ImagePoint = PredictedPatch::ImagePoint;
 constexpr float kFar = std::numeric_limits<float>::max();
-constexpr float kNearest = 0.01f;  // points closer than this are ignored, since no depth sensor sees them [m]
 
 /// Projects the skin points that face the camera into pixels of the map.
 void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map, std::vector<ImagePoint>& points) {
@@ -21,7 +20,7 @@ void project_front(const SegmentSurface& skin, const SE3& T, const PixelMap& map
   for (std::size_t i = 0; i < skin.size(); ++i) {
     const Eigen::Vector3f p = R * Eigen::Vector3f(skin.x[i], skin.y[i], skin.z[i]) + t;
     const Eigen::Vector3f n = R * Eigen::Vector3f(skin.nx[i], skin.ny[i], skin.nz[i]);
-    if (p.z() > kNearest && n.dot(p) < 0)
+    if (p.z() > kNearestSeen && n.dot(p) < 0)
       points.push_back({map.fx * p.x() / p.z() + map.cx, map.fy * p.y() / p.z() + map.cy, p.z()});
   }
 }
