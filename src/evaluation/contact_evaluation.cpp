@@ -11,8 +11,7 @@ namespace barehand {
 namespace {
 
 constexpr double kVisible = 0.5, kHidden = 0.1;  // as in the evaluation of poses
-constexpr int kBins = 10;
-constexpr double kFarthest = 1e6;  // largest distance of a valid row [m]
+constexpr double kFarthest = 1e6;                // largest distance of a valid row [m]
 
 void count(TouchCounts& counts, const StatedContact& stated, bool touches) {
   counts.unknown += !stated.known;
@@ -62,7 +61,7 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
 
 Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& sequences) {
   ContactEvaluation out;
-  std::array<ReliabilityBin, kBins> bins{};
+  std::array<ReliabilityBin, kReliabilityBins> bins{};
 
   // Visit the frames that both the truth and the statements have.
   for (const auto& [poses, truth, stated] : sequences)
@@ -94,7 +93,8 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
 
         // Compare the probability.
         if (!contact.known || of_other) continue;
-        ReliabilityBin& bin = bins[std::clamp(static_cast<int>(contact.probability * kBins), 0, kBins - 1)];
+        ReliabilityBin& bin =
+            bins[std::clamp(static_cast<int>(contact.probability * kReliabilityBins), 0, kReliabilityBins - 1)];
         ++bin.count;
         bin.stated += contact.probability;
         bin.actual += touches;

@@ -10,8 +10,6 @@
 namespace barehand {
 namespace {
 
-constexpr int kBins = 10;
-
 /// Whether the truth has a grasp within kClosingUs of this time.
 bool near_a_grasp(const GraspTruth& truth, std::int64_t utime) {
   for (auto at = truth.lower_bound(utime - kClosingUs); at != truth.end() && at->first <= utime + kClosingUs; ++at)
@@ -89,7 +87,7 @@ Result<GraspTruth> read_grasp_truth(const std::string& path) {
 
 Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequences) {
   GraspEvaluation out;
-  std::array<ReliabilityBin, kBins> bins{};
+  std::array<ReliabilityBin, kReliabilityBins> bins{};
 
   // Visit the frames of the truth, and count those that are stated too.
   for (const GraspSequence& sequence : sequences) {
@@ -106,8 +104,8 @@ Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequen
 
       // Compare the probability.
       if (!stated.known) continue;
-      ReliabilityBin& bin =
-          bins[static_cast<std::size_t>(std::clamp(static_cast<int>(stated.probability * kBins), 0, kBins - 1))];
+      ReliabilityBin& bin = bins[static_cast<std::size_t>(
+          std::clamp(static_cast<int>(stated.probability * kReliabilityBins), 0, kReliabilityBins - 1))];
       ++bin.count;
       bin.stated += stated.probability;
       bin.actual += stated.grasp == truth;

@@ -34,6 +34,8 @@ struct ReliabilityBin {
   std::size_t count = 0;
   double stated = 0, actual = 0;
 };
+/// Number of such bins of equal width for probabilities.
+inline constexpr int kReliabilityBins = 10;
 
 /// How well the stated uncertainty of estimates agrees with their actual errors.
 struct Reliability {

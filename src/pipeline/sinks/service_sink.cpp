@@ -6,8 +6,8 @@
 
 namespace barehand {
 namespace {
-constexpr std::int64_t kStatusPeriodUs = 1'000'000;
-constexpr std::int64_t kNoFramesUs = 2'000'000;  // after this time without a frame, the status line reports it
+constexpr std::int64_t kServicePeriodUs = 1'000'000;
+constexpr std::int64_t kSilenceUs = 2'000'000;  // after this time without a frame, the status line reports it
 }  // namespace
 
 ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelineHeartbeat()> heartbeat,
@@ -27,7 +27,7 @@ Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
 
 Result<void> ServiceSink::idle() {
   feed_watchdog();
-  if (clock_.steady_us() - status_us_ >= kStatusPeriodUs) update_status();
+  if (clock_.steady_us() - status_us_ >= kServicePeriodUs) update_status();
   return {};
 }
 
@@ -43,7 +43,7 @@ void ServiceSink::update_status() {
   const std::int64_t now_us = clock_.steady_us();
   const PipelineHealth health = health_();
   std::string text = "hand: " + (hands_.empty() ? "searching" : status_list(hands_));
-  if (now_us - frame_us_ >= kNoFramesUs)
+  if (now_us - frame_us_ >= kSilenceUs)
     text = formatted("no frames for %lld s", static_cast<long long>((now_us - frame_us_) / 1'000'000));
   const double rate =
       static_cast<double>(health.published - status_published_) * 1e6 / static_cast<double>(now_us - status_us_);
