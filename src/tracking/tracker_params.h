@@ -87,8 +87,7 @@ void visit(V& v, TrackerParams& p) {
   // These set how often a search follows an ambiguous pose.
   v.formerly("doubt_every");
   v("ambiguous_search_every", p.ambiguous_search_every, 1, 100000,
-    "of every n consecutive ambiguous frames the middle one is searched from templates, the first time with full "
-    "effort");
+    "of every n consecutive ambiguous frames the middle one is searched from templates");
   v.formerly("doubt_near_every");
   v("ambiguous_near_every", p.ambiguous_near_every, 1, 100000,
     "of every n consecutive ambiguous frames one is searched near the followed pose");

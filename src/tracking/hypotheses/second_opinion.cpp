@@ -10,11 +10,39 @@
 
 namespace barehand {
 
+struct SecondOpinion::Question {
+  TrackerParams params;
+  std::shared_ptr<const HandProfile> profile;
+  std::shared_ptr<const Skin> skin;
+  HandObservation observation;  // with the second look
+  HandPose followed;
+  double score;    // of the followed pose
+  HandPose start;  // fitted to the joints
+  double least;    // a better pose has a lower joint_cost()
+
+  std::optional<Better> answer() const;
+};
+
+std::optional<SecondOpinion::Better> SecondOpinion::Question::answer() const {
+  const auto agrees_better = [&](const RefinedPose& pose) {
+    return joint_cost(*profile, pose.pose, observation.second_look->joints) < least;
+  };
+
+  // Hidden joints are set last, since most looks only confirm the followed pose.
+  const Refinement refinement(params.refinement, profile, skin);
+  RefinedPose found = refinement.refine(observation, start, start, params.search_iterations);
+  if (!agrees_better(found) || !clearly_better(found.score, score, -kHandAdvantage)) return std::nullopt;
+  if (params.neutral_joints) found = neutral_pose(observation, found, *profile, refinement, params);
+  if (!agrees_better(found) || found.score > score) return std::nullopt;
+  return Better{found.pose, followed};
+}
+
 std::optional<HandPose> SecondOpinion::next(const HandObservation& observation, const HandModel& hand,
                                             const Hypothesis& followed, std::uint32_t frame) {
   const auto found = better_.take(frame);
   if (observation.second_look && !better_.pending()) examine(observation, hand, followed, frame);
   if (!found || !*found) return std::nullopt;
+
   HandPose pose = (*found)->pose;
   const SE3 motion = followed.refined.pose[kPalm] * (*found)->followed[kPalm].inverse();
   for (SE3& segment : pose) segment = motion * segment;
@@ -30,23 +58,11 @@ void SecondOpinion::examine(const HandObservation& observation, const HandModel&
   const auto fit = fit_to_joints(*hand.profile, joints);
   if (!fit || fit->cost >= least) return;
 
-  // Everything is copied, since the tracker goes on meanwhile.
-  better_.begin(frame,
-                context_.workers.run_in_background(
-                    [params = context_.params, observation, profile = hand.profile, skin = hand.skin, start = fit->pose,
-                     least, pose = followed.refined.pose, score = followed.score()](Workers&) -> std::optional<Better> {
-                      const auto agrees_better = [&](const RefinedPose& other) {
-                        return joint_cost(*profile, other.pose, observation.second_look->joints) < least;
-                      };
-                      // Hidden joints are set last, since most looks only confirm the followed pose.
-                      const Refinement refinement(params.refinement, profile, skin);
-                      RefinedPose other = refinement.refine(observation, start, start, params.search_iterations);
-                      if (!agrees_better(other) || !clearly_better(other.score, score, -kHandAdvantage))
-                        return std::nullopt;
-                      if (params.neutral_joints) other = neutral_pose(observation, other, *profile, refinement, params);
-                      if (!agrees_better(other) || other.score > score) return std::nullopt;
-                      return Better{other.pose, pose};
-                    }));
+  // The question holds copies, since the tracker goes on meanwhile.
+  Question question{context_.params,       hand.profile,     hand.skin, observation,
+                    followed.refined.pose, followed.score(), fit->pose, least};
+  better_.begin(frame, context_.workers.run_in_background(
+                           [question = std::move(question)](Workers&) { return question.answer(); }));
 }
 
 }  // namespace barehand

@@ -29,6 +29,8 @@ class SecondOpinion {
   struct Better {
     HandPose pose, followed;
   };
+  /// Whether the joints of a second look give such a pose; asked once.
+  struct Question;
   void examine(const HandObservation& observation, const HandModel& hand, const Hypothesis& followed,
                std::uint32_t frame);
 
