@@ -12,9 +12,9 @@ using Eigen::Vector3f;
 
 constexpr double kSkinDeviation = 0.0015;  // standard deviation of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-// Fitted to simulated grasps: towards a touch, the error of the distance is smaller, since skin does not enter objects;
-// and some objects are too thin or too dark to be seen.
-constexpr double kNearer = 1.6, kOverlooked = 0.03;
+// Fitted to simulated grasps: the distance of what is seen errs less than its deviation says, since skin does not enter
+// objects, and is a little too small; and some objects are too thin or too dark to be seen, or taken for others.
+constexpr double kSharper = 2, kNearer = 0.15, kOverlooked = 0.03;
 // Factor on the odds of a touch for a hidden fingertip whose hand holds the object: fingertips that are not seen
 // usually rest on what the hand holds.
 constexpr double kHolds = 3;
@@ -171,7 +171,8 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     // If little of the segment is seen, something unseen may be nearer than the surface that was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
-    set_state(contact, visible && below > 0 ? kNearer * below : below);
+    set_state(contact, visible ? kSharper * below - kNearer : below);
+    if (visible) contact.probability = kOverlooked + (1 - 2 * kOverlooked) * contact.probability;
     if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
