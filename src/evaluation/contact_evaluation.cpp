@@ -61,7 +61,7 @@ Result<ContactTruth> read_contact_truth(const std::string& path) {
 
 Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& sequences) {
   ContactEvaluation out;
-  std::array<ReliabilityBin, kReliabilityBins> bins{};
+  ProbabilityBins bins;
 
   // Visit the frames that both the truth and the statements have.
   for (const auto& [poses, truth, stated] : sequences)
@@ -92,12 +92,7 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
                 contact, touches);
 
         // Compare the probability.
-        if (!contact.known || of_other) continue;
-        ReliabilityBin& bin =
-            bins[std::clamp(static_cast<int>(contact.probability * kReliabilityBins), 0, kReliabilityBins - 1)];
-        ++bin.count;
-        bin.stated += contact.probability;
-        bin.actual += touches;
+        if (contact.known && !of_other) bins.add(contact.probability, touches);
       }
     }
 
@@ -105,9 +100,7 @@ Result<ContactEvaluation> evaluate_contacts(const std::vector<ContactSequence>& 
   if (out.frames == 0)
     return fail("have no frame in common with the truth", "the contacts", "give the truth of the same recording");
 
-  // Summarise the bins of the reliability diagram that are not empty.
-  for (const ReliabilityBin& bin : bins)
-    if (bin.count > 0) out.probabilities.push_back({bin.count, bin.stated / bin.count, bin.actual / bin.count});
+  out.probabilities = bins.means();
   return out;
 }
 

@@ -87,7 +87,7 @@ Result<GraspTruth> read_grasp_truth(const std::string& path) {
 
 Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequences) {
   GraspEvaluation out;
-  std::array<ReliabilityBin, kReliabilityBins> bins{};
+  ProbabilityBins bins;
 
   // Visit the frames of the truth, and count those that are stated too.
   for (const GraspSequence& sequence : sequences) {
@@ -103,12 +103,7 @@ Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequen
       if (truth != 0) count(out.held, truth, stated);
 
       // Compare the probability.
-      if (!stated.known) continue;
-      ReliabilityBin& bin = bins[static_cast<std::size_t>(
-          std::clamp(static_cast<int>(stated.probability * kReliabilityBins), 0, kReliabilityBins - 1))];
-      ++bin.count;
-      bin.stated += stated.probability;
-      bin.actual += stated.grasp == truth;
+      if (stated.known) bins.add(stated.probability, stated.grasp == truth);
     }
 
     // Reject a sequence that shares no frame with its truth.
@@ -117,11 +112,7 @@ Result<GraspEvaluation> evaluate_grasps(const std::vector<GraspSequence>& sequen
     count_changes(sequence, out);
   }
 
-  // Summarise the bins of the reliability diagram that are not empty.
-  for (const ReliabilityBin& bin : bins)
-    if (bin.count > 0)
-      out.probabilities.push_back(
-          {bin.count, bin.stated / static_cast<double>(bin.count), bin.actual / static_cast<double>(bin.count)});
+  out.probabilities = bins.means();
   return out;
 }
 

@@ -12,7 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kNinetyPercent = 1.6449;  // half width of a 90 % interval, in standard deviations
-constexpr int kConfidenceBins = 10;
 // Lower bound of the first bin [m], and ratio of the bounds of each bin (half an octave).
 constexpr double kFirstErrorBin = 0.0005, kErrorBinRatio = 1.41421356;
 constexpr int kErrorBins = 14;
@@ -45,21 +44,15 @@ class ReliabilitySums {
     const Vector3d proximal = stated.proximal - truth.proximal, distal = stated.distal - truth.distal;
     add(proximal, stated.proximal_covariance, stated.seen);
     add(distal, stated.distal_covariance, stated.seen);
-    ReliabilityBin& bin =
-        confidences_[std::clamp(static_cast<int>(stated.confidence * kConfidenceBins), 0, kConfidenceBins - 1)];
-    ++bin.count;
-    bin.stated += stated.confidence;
-    bin.actual += std::max(proximal.norm(), distal.norm()) <= kConfidenceRadius;
+    confidences_.add(stated.confidence, std::max(proximal.norm(), distal.norm()) <= kConfidenceRadius);
   }
   void add_frame() { ++frames_; }
 
   Reliability result() const {
-    Reliability out{frames_, all_.result(), seen_.result(), inferred_.result(), {}, {}};
+    Reliability out{frames_, all_.result(), seen_.result(), inferred_.result(), {}, confidences_.means()};
     for (const ReliabilityBin& bin : errors_)
       if (bin.count > 0)
         out.errors.push_back({bin.count, std::sqrt(bin.stated / bin.count), std::sqrt(bin.actual / bin.count)});
-    for (const ReliabilityBin& bin : confidences_)
-      if (bin.count > 0) out.confidences.push_back({bin.count, bin.stated / bin.count, bin.actual / bin.count});
     return out;
   }
 
@@ -78,10 +71,25 @@ class ReliabilitySums {
   std::size_t frames_ = 0;
   CoverageSum all_, seen_, inferred_;
   std::array<ReliabilityBin, kErrorBins> errors_{};
-  std::array<ReliabilityBin, kConfidenceBins> confidences_{};
+  ProbabilityBins confidences_;
 };
 
 }  // namespace
+
+void ProbabilityBins::add(double stated, bool happened) {
+  const int count = static_cast<int>(sums_.size());
+  ReliabilityBin& bin = sums_[std::clamp(static_cast<int>(stated * count), 0, count - 1)];
+  ++bin.count;
+  bin.stated += stated;
+  bin.actual += happened;
+}
+
+std::vector<ReliabilityBin> ProbabilityBins::means() const {
+  std::vector<ReliabilityBin> means;
+  for (const ReliabilityBin& bin : sums_)
+    if (bin.count > 0) means.push_back({bin.count, bin.stated / bin.count, bin.actual / bin.count});
+  return means;
+}
 
 Result<Reliability> evaluate_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences) {
   // Add up the frames that both tables contain.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -34,8 +35,18 @@ struct ReliabilityBin {
   std::size_t count = 0;
   double stated = 0, actual = 0;
 };
-/// Number of such bins of equal width for probabilities.
-inline constexpr int kReliabilityBins = 10;
+
+/// Collects stated probabilities in ten bins of equal width.
+class ProbabilityBins {
+ public:
+  /// `happened`: whether what was stated with this probability (in [0, 1]) is true.
+  void add(double stated, bool happened);
+  /// Of each bin that is not empty, the mean stated probability, and the fraction that happened.
+  std::vector<ReliabilityBin> means() const;
+
+ private:
+  std::array<ReliabilityBin, 10> sums_{};
+};
 
 /// How well the stated uncertainty of estimates agrees with their actual errors.
 struct Reliability {
