@@ -1,7 +1,7 @@
 // Adapts a mean hand to the tracked person.
 #include "person/person_fit.h"
 
-#include <chrono>
+#include "core/parallel/is_ready.h"
 
 namespace barehand {
 
@@ -33,7 +33,7 @@ void PersonFit::build(std::shared_ptr<const Skin> skin) {
 }
 
 bool PersonFit::take_built() {
-  if (!building_.valid() || building_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+  if (!is_ready(building_)) return false;
   built_ = building_.get();
   const auto before = std::exchange(skin_, skin_of_shape());
   return skin_ != before;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/parallel/is_ready.h"
 #include "person/person_fit.h"
 
 namespace barehand {
@@ -112,7 +113,7 @@ void PersonScan::restart() {
 }
 
 std::shared_ptr<const HandProfile> PersonScan::take() {
-  if (!scan_.valid() || scan_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+  if (!is_ready(scan_)) return nullptr;
   return scan_.get();
 }
 

@@ -35,9 +35,9 @@ class SecondLook {
              Workers& workers);
 
   int every_;
-  std::int64_t frame_ = -1;         // number of the frame, from 0
-  std::size_t turn_ = 0;            // the hand that is looked at next
-  DelayedResult<Look> look_{2, 8};  // a look takes about two frames
+  std::int64_t frame_ = -1;  // number of the frame, from 0
+  std::size_t turn_ = 0;     // the hand that is looked at next
+  DelayedResult<Look> look_;
 };
 
 }  // namespace barehand

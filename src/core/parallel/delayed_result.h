@@ -1,10 +1,11 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <future>
 #include <optional>
 #include <utility>
+
+#include "core/parallel/is_ready.h"
 
 namespace barehand {
 
@@ -13,27 +14,25 @@ namespace barehand {
 template <typename T>
 class DelayedResult {
  public:
-  /// `delay`: number of frames after which a result is used, at least 1. `outdated`: number of frames after which it is
-  /// dropped instead.
-  DelayedResult(int delay, int outdated) : delay_(delay), outdated_(outdated) {}
-
   /// Begins to wait for a result in frame number `now`. None may be pending.
   void begin(std::int64_t now, std::future<T> result) {
     begun_ = now;
     result_ = std::move(result);
   }
   bool pending() const { return result_.valid(); }
-  /// The result, once, if it is there and old enough in frame number `now`. Exceptions of the work are rethrown.
+  /// The result, once, if it is there in frame number `now` and neither too new nor outdated. Exceptions of the work
+  /// are rethrown.
   std::optional<T> take(std::int64_t now) {
-    if (!pending() || now - begun_ < delay_ || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-      return std::nullopt;
+    const std::int64_t age = now - begun_;
+    if (age < kDelay || !is_ready(result_)) return std::nullopt;
     T result = result_.get();
-    if (now - begun_ > outdated_) return std::nullopt;
+    if (age > kOutdated) return std::nullopt;
     return result;
   }
 
  private:
-  int delay_, outdated_;
+  static constexpr std::int64_t kDelay = 2;     // frames after which a result is used, since most take about as long
+  static constexpr std::int64_t kOutdated = 8;  // frames after which it is dropped, since the hand has moved
   std::int64_t begun_ = 0;
   std::future<T> result_;
 };
