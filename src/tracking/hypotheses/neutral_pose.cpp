@@ -9,6 +9,8 @@ namespace barehand {
 
 RefinedPose neutral_pose(const HandObservation& observation, const RefinedPose& found, const HandProfile& profile,
                          const Refinement& refinement, const TrackerParams& params) {
+  if (!params.neutral_joints) return found;
+
   // Visible fraction above which a segment counts as observed; a thin visible strip fits nearly any angle.
   constexpr double kObserved = 0.5;
   // Differences of the score below this fraction of the sensor's noise are insignificant.

@@ -145,7 +145,7 @@ std::optional<Hypothesis> Proposers::best_of(Origin origin, const HandObservatio
 /// Sets unobserved joints to neutral angles, since a search leaves them at random ones (neutral_pose).
 void Proposers::set_neutral_joints(const HandObservation& observation, const HandModel& hand,
                                    std::optional<Hypothesis>& found) const {
-  if (found && context_.params.neutral_joints)
+  if (found)
     found->refined = neutral_pose(observation, found->refined, *hand.profile, hand.refinement, context_.params);
 }
 

@@ -31,11 +31,9 @@ class SecondOpinion {
   };
   /// Whether the joints of a second look give such a pose; asked once.
   struct Question;
-  void examine(const HandObservation& observation, const HandModel& hand, const Hypothesis& followed,
-               std::uint32_t frame);
 
   const TrackerContext& context_;
-  DelayedResult<std::optional<Better>> better_{2, 8};
+  DelayedResult<std::optional<Better>> better_;
 };
 
 }  // namespace barehand
