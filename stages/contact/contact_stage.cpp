@@ -172,7 +172,8 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
     set_state(contact, visible ? kSharper * below - kNearer : below);
-    if (visible) contact.probability = kOverlooked + (1 - 2 * kOverlooked) * contact.probability;
+    if (visible)  // shrinks towards one half, so that the state stays
+      contact.probability = kOverlooked + (1 - 2 * kOverlooked) * contact.probability;
     if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
