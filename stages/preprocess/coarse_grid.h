@@ -31,13 +31,16 @@ struct CoarseGrid {
   float cell_area(float depth) const { return static_cast<float>(depth * depth / (camera.fx * camera.fy)); }
 };
 
+/// Standard deviation [m] that is assumed for one depth measurement at depth `z` [m] before the noise is measured.
+inline float depth_noise(float z) {
+  const float away = z > 0.4f ? z - 0.4f : 0.f;
+  return 0.0012f + 0.0019f * away * away;
+}
+
 /// Largest depth step [m] between neighbouring pixels of one surface at depth `z` [m]: four pixel widths z / fx plus
 /// three standard deviations of the sensor's noise. Steep slopes stay below it; the gap between a fingertip and what is
 /// behind it does not.
-inline float same_surface_step(float z, float fx) {
-  const float away = z > 0.4f ? z - 0.4f : 0.f;
-  return 4.f * z / fx + 3.f * (0.0012f + 0.0019f * away * away);
-}
+inline float same_surface_step(float z, float fx) { return 4.f * z / fx + 3.f * depth_noise(z); }
 
 /// Fills `grid` from the frame and reuses its memory. The depth of a cell is the median of five samples, so that single
 /// missing or flying pixels do not matter.

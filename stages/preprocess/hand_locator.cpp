@@ -28,15 +28,14 @@ constexpr float kHandRadius = 0.13f;     // distance from a hand's centre to its
 constexpr float kDetectedReach = 0.17f;  // distance from the middle of a palm to the farthest fingertip [m]
 constexpr float kSearchRadius = 0.22f;   // cells within this distance of a hand's centre are examined [m]
 constexpr float kSideBySide = 0.10f;     // difference of depth up to which two candidates are equally near [m]
-constexpr float kForearm = 0.35f;        // length of the cylinder behind a wrist that counts as forearm [m]
-constexpr float kForearmRadius = 0.07f;  // radius of this cylinder [m]
 constexpr double kMetresAtRest = 0.06;   // motion that is allowed however short the frame interval is [m]
 constexpr double kCloseBy = 0.05;        // motion that is allowed for a hand that touches a large surface [m]
 
 }  // namespace
 
-std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
-                                              double feedback_age, const Detection* detection) {
+std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, const StandingDepth& standing,
+                                              std::span<const HandEstimatePtr> feedback, double feedback_age,
+                                              const Detection* detection) {
   finder_.find(grid, params_, all_candidates_);
   if (detection && !grid.coloured) remove_labelled(grid, *detection);  // colour, if any, is the better evidence
 
@@ -50,6 +49,7 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
     hand.prediction.reset();
     hand.wrist.reset();
     hand.detected = hand.second_look = nullptr;
+    hand.standing = nullptr;
     hand.cells.reset(grid.z.width(), grid.z.height());
   }
 
@@ -57,6 +57,11 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, std::span<
   for (std::size_t k = 0; k < hands_.size(); ++k) {
     if (!tracked(k)) continue;
     candidates_ = all_candidates_;
+    for (int v = 0; v < grid.z.height(); ++v)
+      for (int u = 0; u < grid.z.width(); ++u)
+        if (candidates_.at(u, v) && StandingDepth::agrees(grid.z.at(u, v), standing.depth(u, v)))
+          candidates_.at(u, v) = 0;
+    hands_[k].standing = &standing;
     for (std::size_t other = 0; other < hands_.size(); ++other)
       if (other != k && tracked(other)) remove_nearer_to(grid, *predictions_[other], *predictions_[k]);
     split_surfaces(grid, candidates_, surfaces_);
@@ -185,12 +190,8 @@ void HandLocator::remove_hand(const CoarseGrid& grid, const CoarseHand& hand) {
       if (!candidate) continue;
       if (hand.cells.at(u, v)) {
         candidate = 0;
-      } else if (hand.wrist) {
-        // Remove the forearm, too, which lies in a cylinder behind the wrist.
-        const Eigen::Vector3f p = grid.point(u, v);
-        const float behind = hand.wrist->behind(p);
-        const Eigen::Vector3f aside = p - hand.wrist->point - behind * hand.wrist->axis;
-        if (behind > 0 && behind < kForearm && aside.squaredNorm() < kForearmRadius * kForearmRadius) candidate = 0;
+      } else if (hand.wrist && hand.wrist->on_forearm(grid.point(u, v))) {
+        candidate = 0;
       }
     }
 }

@@ -6,25 +6,12 @@
 
 #include "observe/detection.h"
 #include "stages/preprocess/alignment.h"
-#include "stages/preprocess/image/components.h"
-#include "stages/preprocess/predicted_hand.h"
-#include "stages/preprocess/wrist.h"
+#include "stages/preprocess/coarse_hand.h"
+#include "stages/preprocess/standing_depth.h"
 
 namespace barehand {
 
 // Finds the hands in the coarse grid of a frame.
-
-/// One hand in the coarse grid.
-struct CoarseHand {
-  bool found = false;
-  bool followed = false;                    ///< whether it was found where the feedback predicts it
-  Image<std::uint8_t> cells;                ///< 1 = hand
-  std::optional<PredictedHand> prediction;  ///< the feedback, moved to where the hand is now; none if that fails
-  Image<float> distance;                   ///< distance of candidates from the prediction's skin [m]; infinite far away
-  std::optional<WristPlane> wrist;         ///< plane behind which cells are forearm
-  const DetectedHand* detected = nullptr;  ///< the corresponding detected hand; null if there is none
-  const DetectedHand* second_look = nullptr;  ///< Detection::second_look, if it is of this hand
-};
 
 /// Finds which cells of the coarse grid belong to which hand (a segmentation; the search for poses is in
 /// stages/search). A hand with feedback is expected near its pose there, within max_speed times the feedback's age;
@@ -33,12 +20,14 @@ struct CoarseHand {
 class HandLocator {
  public:
   HandLocator(const PreprocessParams& params, int hands) : params_(params), hands_(hands) {}
-  /// `feedback`: one estimate per hand or none at all; each may be null. `feedback_age`: seconds since its frame.
+  /// `standing`: what stood there before; it is no part of a tracked hand. `feedback`: one estimate per hand or none at
+  /// all; each may be null. `feedback_age`: seconds since its frame.
   /// `detection`: result for this frame; null: surfaces and colours alone decide. Within its windows, its labels
   /// distinguish the hand from arm, object and background; if its `whole_frame` is set, nothing else starts a hand.
   /// Returns one result per hand, in the order of the feedback, valid until the next call and as long as `detection`.
-  std::span<const CoarseHand> find(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
-                                   double feedback_age, const Detection* detection = nullptr);
+  std::span<const CoarseHand> find(const CoarseGrid& grid, const StandingDepth& standing,
+                                   std::span<const HandEstimatePtr> feedback, double feedback_age,
+                                   const Detection* detection = nullptr);
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);

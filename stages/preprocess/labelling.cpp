@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/preprocess/standing_depth.h"
+
 namespace barehand {
 namespace {
 
@@ -78,23 +80,29 @@ void HandMask::colour_evidence(const RgbdFrame& frame, const SkinModel& skin, co
   count_.compute(non_skin_, params_.skew_px, non_skin_count_);
 }
 
-void HandMask::find_supported(const Image<float>& depth) {
+void HandMask::find_supported(const CoarseHand& hand, const Image<float>& depth) {
   const int width = depth.width(), height = depth.height();
   supported_.reset(width, height);
   low_.resize(width);
   high_.resize(width);
+  standing_.resize(width);
+  tolerance_.resize(width);
   for (int v = 0; v < height; ++v) {
     // Look up the limits of the cells where a new row of cells begins.
     if (v == 0 || row_[v] != row_[v - 1])
       for (int u = 0; u < width; ++u) {
         low_[u] = lowest_.at(column_[u], row_[v]);
         high_[u] = highest_.at(column_[u], row_[v]);
+        standing_[u] = hand.standing ? hand.standing->depth(column_[u], row_[v]) : 0.f;
+        tolerance_[u] = StandingDepth::tolerance(standing_[u]);
       }
 
-    // Compare the depth with the limits.
-    const float *z = depth.row(v), *low = low_.data(), *high = high_.data();
+    // Compare the depth with the limits, and with what has stood there.
+    const float *z = depth.row(v), *low = low_.data(), *high = high_.data(), *standing = standing_.data(),
+                *tolerance = tolerance_.data();
     std::uint8_t* supported = supported_.row(v);
-    for (int u = 0; u < width; ++u) supported[u] = (z[u] > low[u]) & (z[u] < high[u]);
+    for (int u = 0; u < width; ++u)
+      supported[u] = (z[u] > low[u]) & (z[u] < high[u]) & (std::abs(z[u] - standing[u]) >= tolerance[u]);
   }
 }
 
@@ -156,7 +164,7 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
   // Find the pixels whose depth agrees with the cells of the hand.
   tabulate(frame.camera, grid, region);
   support(grid, hand, hands);
-  find_supported(depth);
+  find_supported(hand, depth);
   evidence_.reset(region.width, region.height, Evidence::none);
 
   // Classify them by colour, or by depth if there is no colour.

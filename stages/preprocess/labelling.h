@@ -30,7 +30,7 @@ class HandMask {
   void tabulate(const Intrinsics& camera, const CoarseGrid& grid, const Region& region);
   void support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
-  void find_supported(const Image<float>& depth);
+  void find_supported(const CoarseHand& hand, const Image<float>& depth);
   void classify_by_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected);
   void classify_by_colour(const Image<float>& depth);
 
@@ -38,7 +38,9 @@ class HandMask {
   PixelRays rays_;
   std::vector<int> column_, row_;  // grid column of every column of the region, and grid row of every row
   Image<float> lowest_, highest_;  // range of depths at which the pixels of each grid cell may be hand [m]
-  std::vector<float> low_, high_;  // range of depths of hand pixels for every pixel of the current row [m]
+  // Data of every pixel of the current row: range of depths of hand pixels; depth of what stands there, and how far it
+  // reaches [m].
+  std::vector<float> low_, high_, standing_, tolerance_;
   std::vector<std::int32_t> row_evidence_;
   // Data of every pixel; the window around a pixel reaches `skew_px` to every side.
   Image<std::uint8_t> supported_;                 // 1 = the pixel may be hand according to its depth

@@ -60,7 +60,8 @@ Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
   sample_coarsely(*frame, params_, skin_, grid_);
   const double age = feedback.empty() ? 0 : std::abs(static_cast<double>(frame->utime - feedback[0]->utime)) * 1e-6;
-  const std::span<const CoarseHand> hands = locator_.find(grid_, feedback, age, detection.get());
+  const std::span<const CoarseHand> hands = locator_.find(grid_, standing_, feedback, age, detection.get());
+  standing_.update(grid_, hands, frame->utime);
   HandObservations result;
   if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
   for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands, detection));

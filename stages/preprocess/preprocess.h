@@ -15,7 +15,8 @@
 namespace barehand {
 
 /// First stage: finds the hands in a frame and computes the maps that the trackers use (paper Sec. 4.1). Synchronous;
-/// frames must come in order, because the skin model, the only state that outlives a frame, learns from each.
+/// frames must come in order, because the skin model and what stands in the scene, the only states that outlive a
+/// frame, learn from each.
 class Preprocessor {
  public:
   explicit Preprocessor(const PreprocessParams& params, int hands = 1);
@@ -41,6 +42,7 @@ class Preprocessor {
 
   PreprocessParams params_;
   SkinModel skin_;
+  StandingDepth standing_;
   HandLocator locator_;
   HandMask masker_;
   DepthCleaner cleaner_;

@@ -10,6 +10,12 @@ namespace barehand {
 struct WristPlane {
   Eigen::Vector3f point, axis;
   float behind(const Eigen::Vector3f& p) const { return (p - point).dot(axis); }
+  /// Whether a point is on the forearm, that is, in a cylinder behind the plane.
+  bool on_forearm(const Eigen::Vector3f& p) const {
+    constexpr float kLength = 0.35f, kRadius = 0.07f;  // of the cylinder [m]
+    const float back = behind(p);
+    return back > 0 && back < kLength && (p - point - back * axis).squaredNorm() < kRadius * kRadius;
+  }
 };
 
 /// Finds the wrist of a hand with forearm from its outline alone: along the axis from the fingertips towards the arm

@@ -23,6 +23,7 @@ void masks(benchmark::State& state) {
   // Create the units and buffers once, as the preprocessor does.
   CoarseGrid grid;
   HandLocator locator(w.preprocess, 1);
+  const StandingDepth standing;
   DepthCleaner cleaner;
   HandMask masker(w.preprocess);
   const HandObservation& o = *w.observation;
@@ -33,7 +34,7 @@ void masks(benchmark::State& state) {
   // Run all steps up to the mask of the hand.
   for (auto _ : state) {
     sample_coarsely(*w.frame, w.preprocess, skin, grid);
-    const std::span<const CoarseHand> hands = locator.find(grid, before, 0.03);
+    const std::span<const CoarseHand> hands = locator.find(grid, standing, before, 0.03);
     cleaner.clean(*w.frame, w.preprocess, region, depth, edge);
     masker.compute(*w.frame, skin, grid, hands.front(), hands, region, depth, edge, mask);
     benchmark::DoNotOptimize(mask.data());
