@@ -79,7 +79,8 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
     if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);
-    return (*preprocessor)->process(frame, feedback, detection->process(frame, feedback));
+    const bool needs_labels = (*preprocessor)->needs_labels();
+    return (*preprocessor)->process(frame, feedback, detection->process(frame, feedback, needs_labels));
   };
   stages.track = [tracker, feedback](const HandObservations& observations) {
     if (feedback) tracker->couple_with(feedback->wait());

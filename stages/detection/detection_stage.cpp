@@ -35,7 +35,8 @@ DetectionStage::DetectionStage(const DetectionParams& params, const std::string&
   log_->info("hands are found by networks of version {}", detector_->version());
 }
 
-DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback) {
+DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback,
+                                     bool needs_labels) {
   const RgbdFrame& frame = *shared;
   const bool valid =
       frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
@@ -46,7 +47,8 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   const auto tracked = std::ranges::count_if(feedback, is_tracked);
   const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
   const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
-  const bool windows = tracked && turn % params_.every_tracked == 0 && !(use_colour_ && has_colour(frame));
+  const bool colour = use_colour_ && has_colour(frame) && !needs_labels;
+  const bool windows = tracked && turn % params_.every_tracked == 0 && !colour;
   const auto look = second_look_.next(shared, feedback, *detector_, workers_);
   if (look && !*look && all_tracked && !windows) return nullptr;
 

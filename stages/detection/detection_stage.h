@@ -13,8 +13,8 @@
 namespace barehand {
 
 /// Decides for every frame where to run the detection networks, and runs them: on the whole frame while a hand is
-/// missing; around each tracked hand if no colour is available that would tell it from the arm; otherwise now and then,
-/// beside the tracking (SecondLook).
+/// missing; around each tracked hand if no colour tells it from arm and object; otherwise now and then, beside the
+/// tracking (SecondLook).
 /// The decision depends on the frames and the feedback only, not on time, so that a recording gives the same results on
 /// every machine. Synchronous; frames must come in order. If the networks cannot be used, a warning is logged once and
 /// nothing is detected.
@@ -28,7 +28,8 @@ class DetectionStage {
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
   /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
   /// contains no information about where hands are.
-  DetectionPtr process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback);
+  /// `needs_labels`: whether colour, if there is any, is not enough (Preprocessor::needs_labels).
+  DetectionPtr process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback, bool needs_labels = false);
 
  private:
   // The side of the hand that is searched for, if it is only one.

@@ -22,7 +22,7 @@ void visit(V& v, DetectionParams& p) {
          "folder with nets.json and the networks; a bare name is a folder of the shipped configs/");
   v("every", p.every, 1, 1000, "every n-th frame is searched as a whole while a hand is missing");
   v("every_tracked", p.every_tracked, 1, 1000,
-    "every n-th frame is searched around each tracked hand where there is no colour");
+    "every n-th frame is searched around each tracked hand where no colour tells it from other things");
   v("second_look_every", p.second_look_every, 0, 1000,
     "every n-th frame one tracked hand is examined again if some of it is not seen, to find confused fingers; 0: "
     "never");

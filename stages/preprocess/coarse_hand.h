@@ -19,6 +19,7 @@ struct CoarseHand {
   Image<float> distance;            ///< distance of candidates from the prediction's skin [m]; infinite far away
   std::optional<WristPlane> wrist;  ///< plane behind which cells are forearm
   const StandingDepth* standing = nullptr;    ///< what stood there before and is left out; null if nothing is
+  bool labelled = false;                      ///< whether labels of `detected` tell which pixels are not hand
   const DetectedHand* detected = nullptr;     ///< the corresponding detected hand; null if there is none
   const DetectedHand* second_look = nullptr;  ///< Detection::second_look, if it is of this hand
 };

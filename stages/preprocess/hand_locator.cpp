@@ -21,6 +21,10 @@ constexpr int kOwnCells = 8;
 constexpr float kLeakReach = 0.03f;
 constexpr float kLeakFactor = 0.6f;
 
+// Skin-like cells on a hand that are labelled as something else are a thing that touches it if their area is larger
+// than this [m^2].
+constexpr float kTouchingArea = 0.0007f;
+
 // Without colour, largest area of a separate surface, such as a cut-off finger, that may join a hand, as a fraction of
 // the area of the hand's own surface.
 constexpr float kLoosePart = 0.12f;
@@ -29,23 +33,47 @@ constexpr float kDetectedReach = 0.17f;  // distance from the middle of a palm t
 constexpr float kSearchRadius = 0.22f;   // cells within this distance of a hand's centre are examined [m]
 constexpr float kSideBySide = 0.10f;     // difference of depth up to which two candidates are equally near [m]
 constexpr double kMetresAtRest = 0.06;   // motion that is allowed however short the frame interval is [m]
-constexpr double kCloseBy = 0.05;        // motion that is allowed for a hand that touches a large surface [m]
+constexpr float kOnBones = 0.025f;  // distance from a detected bone up to which skin counts, whatever its label [m]
+constexpr double kCloseBy = 0.05;   // motion that is allowed for a hand that touches a large surface [m]
+
+/// Distance [m] of a point from the nearest bone of a detected hand.
+float bone_distance(const DetectedHand& hand, const Eigen::Vector3f& p) {
+  const auto joint = [&](int landmark) -> Eigen::Vector3f { return hand.joints[landmark].position.cast<float>(); };
+  float nearest_sq = INFINITY;
+  for (int finger = 0; finger < kFingerCount; ++finger)
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector3f start = joint(k == 0 ? kWristLandmark : landmark_of(finger, k - 1));
+      const Eigen::Vector3f bone = joint(landmark_of(finger, k)) - start;
+      const float along = std::clamp((p - start).dot(bone) / std::max(bone.squaredNorm(), 1e-9f), 0.f, 1.f);
+      nearest_sq = std::min(nearest_sq, (p - start - along * bone).squaredNorm());
+    }
+  return std::sqrt(nearest_sq);
+}
 
 }  // namespace
 
 std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, const StandingDepth& standing,
                                               std::span<const HandEstimatePtr> feedback, double feedback_age,
                                               const Detection* detection) {
+  // Colour, if there is any and if it does not mislead, is better evidence than labels.
   finder_.find(grid, params_, all_candidates_);
-  if (detection && !grid.coloured) remove_labelled(grid, *detection);  // colour, if any, is the better evidence
+  use_labels_ = detection && (!grid.coloured || colour_misleads_);
+  if (use_labels_) remove_labelled(grid, *detection);
+  touched_ = false;
+  locate(grid, standing, feedback, feedback_age, detection);
+  colour_misleads_ = touched_;
+  return hands_;
+}
 
+void HandLocator::locate(const CoarseGrid& grid, const StandingDepth& standing,
+                         std::span<const HandEstimatePtr> feedback, double feedback_age, const Detection* detection) {
   // Predict each hand by the feedback, and forget the previous frame.
   const auto tracked = [&](std::size_t k) { return predictions_[k] && feedback[k]->status == TrackStatus::tracking; };
   predictions_.assign(hands_.size(), std::nullopt);
   for (std::size_t k = 0; k < feedback.size(); ++k) predictions_[k] = PredictedHand::from(feedback[k].get());
 
   for (CoarseHand& hand : hands_) {
-    hand.found = hand.followed = false;
+    hand.found = hand.followed = hand.labelled = false;
     hand.prediction.reset();
     hand.wrist.reset();
     hand.detected = hand.second_look = nullptr;
@@ -69,7 +97,7 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, const Stan
   }
 
   // Follow the hands that have a pose but are not tracked, among the candidates that are left.
-  if (std::ranges::all_of(hands_, &CoarseHand::found)) return hands_;
+  if (std::ranges::all_of(hands_, &CoarseHand::found)) return;
   candidates_ = all_candidates_;
   for (const CoarseHand& hand : hands_)
     if (hand.followed) remove_hand(grid, hand);
@@ -96,11 +124,11 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, const Stan
 
     if (hand.found) remove_hand(grid, hand);
   }
-  return hands_;
 }
 
 /// Removes the candidates that are in a window of the detection and not labelled as hand.
 void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detection) {
+  labelled_.reset(grid.z.width(), grid.z.height());
   for (int v = 0; v < grid.z.height(); ++v)
     for (int u = 0; u < grid.z.width(); ++u) {
       std::uint8_t& candidate = all_candidates_.at(u, v);
@@ -108,14 +136,18 @@ void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detec
 
       // Look up the label of the cell in each window that covers it.
       const Eigen::Vector2d pixel = grid.frame_pixel(u, v);
-      bool covered = false, is_hand = false;
+      bool covered = false, is_hand = false, is_arm = false;
       for (const DetectedHand& hand : detection.hands) {
         if (!hand.labels.covers(pixel.x(), pixel.y())) continue;
         covered = true;
         is_hand |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand;
+        is_arm |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::arm;
       }
 
-      if (covered && !is_hand) candidate = 0;
+      if (covered && !is_hand) {
+        candidate = 0;
+        labelled_.at(u, v) = !is_arm;
+      }
     }
 }
 
@@ -146,10 +178,11 @@ const DetectedHand* HandLocator::choose_detected(const Detection& detection) con
 }
 
 /// Sets the cells of a detected hand: candidates labelled as hand, within a hand's reach and in front of its wrist. In
-/// depth, a palm may look like a held object, so cells labelled as object count as hand if their colour is clearly
-/// skin.
+/// depth, a palm may look like a held object, so cells labelled as object count as hand if their colour is clearly skin
+/// and they are near the detected bones.
 bool HandLocator::start_at(const CoarseGrid& grid, const DetectedHand& detected, CoarseHand& hand) {
   hand.detected = &detected;
+  hand.labelled = !grid.coloured;
   const Eigen::Vector3f wrist = detected.joints[kWristLandmark].position.cast<float>();
   const Eigen::Vector3f knuckle = detected.joints[kMiddleKnuckleLandmark].position.cast<float>();
   const Eigen::Vector3f axis = (wrist - knuckle).normalized();
@@ -163,9 +196,10 @@ bool HandLocator::start_at(const CoarseGrid& grid, const DetectedHand& detected,
       if (!candidates_.at(u, v) || !detected.labels.covers(pixel.x(), pixel.y())) continue;
 
       const SurfaceLabel label = detected.labels.at(pixel.x(), pixel.y());
-      const bool skin = grid.coloured && grid.odds.at(u, v) > params_.skin_odds;
-      const bool is_hand = label == SurfaceLabel::hand || (skin && label == SurfaceLabel::object);
       const Eigen::Vector3f p = grid.point(u, v);
+      const bool skin = grid.coloured && grid.odds.at(u, v) > params_.skin_odds;
+      const bool is_hand = label == SurfaceLabel::hand ||
+                           (skin && label == SurfaceLabel::object && bone_distance(detected, p) < kOnBones);
       hand.cells.at(u, v) = is_hand && hand.wrist->behind(p) <= 0 && (p - centre).norm() < kDetectedReach;
     }
   return hand_area(grid, hand) >= params_.min_hand_area;
@@ -253,6 +287,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     const MatchCounts& own = match_counts_[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
+    touched_ |= leaks && grid.coloured;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
 
@@ -262,13 +297,26 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     return false;
   }
 
+  // Where colour misled in the last frame, find out whether it still would.
+  if (use_labels_ && grid.coloured) touched_ |= touches_labelled(grid, body);
+
   // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;
   if (detection) hand.detected = detected_near(detection->hands, body.centre(), kHandRadius);
+  hand.labelled = use_labels_ && hand.detected;
   if (detection && detection->second_look)
     hand.second_look = detected_near({&*detection->second_look, 1}, body.centre(), kHandRadius);
   hand.wrist = WristPlane{body.wrist() + margin * body.arm_axis(), body.arm_axis()};
   return true;
+}
+
+/// Whether a thing that only labels tell from the hand touches it.
+bool HandLocator::touches_labelled(const CoarseGrid& grid, const PredictedHand& body) const {
+  float area = 0;
+  for (int v = 0; v < grid.z.height(); ++v)
+    for (int u = 0; u < grid.z.width(); ++u)
+      if (labelled_.at(u, v) && body.distance(grid.point(u, v)) < kLeakReach) area += grid.cell_area(grid.z.at(u, v));
+  return area > kTouchingArea;
 }
 
 int HandLocator::choose_part(const CoarseGrid& grid) const {

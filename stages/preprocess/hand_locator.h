@@ -28,6 +28,9 @@ class HandLocator {
   std::span<const CoarseHand> find(const CoarseGrid& grid, const StandingDepth& standing,
                                    std::span<const HandEstimatePtr> feedback, double feedback_age,
                                    const Detection* detection = nullptr);
+  /// Whether something of the colour of skin touches a followed hand of the last frame, so that labels are needed to
+  /// tell it apart.
+  bool colour_misleads() const { return colour_misleads_; }
 
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
@@ -35,7 +38,10 @@ class HandLocator {
   bool follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
               CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
+  void locate(const CoarseGrid& grid, const StandingDepth& standing, std::span<const HandEstimatePtr> feedback,
+              double feedback_age, const Detection* detection);
   void remove_labelled(const CoarseGrid& grid, const Detection& detection);
+  bool touches_labelled(const CoarseGrid& grid, const PredictedHand& body) const;
   const DetectedHand* detected_near(std::span<const DetectedHand> hands, const Eigen::Vector3f& centre,
                                     double reach) const;
   const DetectedHand* choose_detected(const Detection& detection) const;
@@ -51,10 +57,14 @@ class HandLocator {
 
   PreprocessParams params_;
   Image<std::uint8_t> all_candidates_, candidates_, movable_;
+  Image<std::uint8_t> labelled_;  // 1 = no candidate because of its label, and not an arm
   CandidateFinder finder_;
   TranslationSearch translation_;
   Components surfaces_;
   std::vector<MatchCounts> match_counts_;  // numbers of matching cells for every surface
+  bool colour_misleads_ = false;
+  bool use_labels_ = false;  // whether labels tell in this frame what is not hand
+  bool touched_ = false;     // whether something that looks like skin touches a hand in this frame
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> predictions_;
 };

@@ -106,18 +106,18 @@ void HandMask::find_supported(const CoarseHand& hand, const Image<float>& depth)
   }
 }
 
-void HandMask::classify_by_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected) {
+void HandMask::classify_by_depth(const Image<float>& depth) {
   for (std::size_t i = 0; i < depth.size(); ++i)
     evidence_[i] = depth[i] <= 0 ? Evidence::none : (supported_[i] ? Evidence::hand : Evidence::other);
-  if (!detected) return;
+}
 
-  // Depth alone does not distinguish a hand from the arm or a touched object, so use the detection's labels.
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) {
+void HandMask::apply_labels(const LabelMap& labels, const Region& region) {
+  for (int v = 0; v < evidence_.height(); ++v)
+    for (int u = 0; u < evidence_.width(); ++u) {
       Evidence& evidence = evidence_.at(u, v);
       const int frame_u = u + region.u0, frame_v = v + region.v0;
-      if (evidence != Evidence::hand || !detected->labels.covers(frame_u, frame_v)) continue;
-      if (detected->labels.hand_odds_at(frame_u, frame_v) < 0) evidence = Evidence::other;
+      if ((evidence != Evidence::hand && evidence != Evidence::open) || !labels.covers(frame_u, frame_v)) continue;
+      if (labels.hand_odds_at(frame_u, frame_v) < 0) evidence = Evidence::other;
     }
 }
 
@@ -175,8 +175,11 @@ void HandMask::compute(const RgbdFrame& frame, const SkinModel& skin, const Coar
     const float fx = static_cast<float>(frame.camera.fx);
     flood_.run(evidence_, colours_, [&](std::int32_t i, std::int32_t j) { return joined(depth[i], depth[j], fx); });
   } else {
-    classify_by_depth(depth, region, hand.detected);
+    classify_by_depth(depth);
   }
+
+  // Where colour does not distinguish a hand from what touches it, the detection's labels do.
+  if (hand.labelled) apply_labels(hand.detected->labels, region);
 
   // Take what is classified as hand. Pixels that are still open count, too, unless the colours around them speak
   // against skin.

@@ -31,7 +31,8 @@ class HandMask {
   void support(const CoarseGrid& grid, const CoarseHand& hand, std::span<const CoarseHand> hands);
   void colour_evidence(const RgbdFrame& frame, const SkinModel& skin, const Region& region);
   void find_supported(const CoarseHand& hand, const Image<float>& depth);
-  void classify_by_depth(const Image<float>& depth, const Region& region, const DetectedHand* detected);
+  void classify_by_depth(const Image<float>& depth);
+  void apply_labels(const LabelMap& labels, const Region& region);
   void classify_by_colour(const Image<float>& depth);
 
   PreprocessParams params_;

@@ -50,7 +50,7 @@ TEST_F(DetectionStageTest, LooksAtTheWholeFrameWhileAHandIsSearchedFor) {
   }
 }
 
-TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereThereIsNoColour) {
+TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereColourIsMissingOrNotEnough) {
   DetectionStage tracking = stage();
   const std::vector<HandEstimatePtr> feedback = {earlier(TrackStatus::tracking)};
   const DetectionPtr without_colour = tracking.process(frame_, feedback);
@@ -59,6 +59,7 @@ TEST_F(DetectionStageTest, LooksAroundATrackedHandOnlyWhereThereIsNoColour) {
   EXPECT_EQ(without_colour->hands.size(), 1u);
   paint({200, 150, 120});
   EXPECT_EQ(tracking.process(frame_, feedback), nullptr);
+  EXPECT_TRUE(tracking.process(frame_, feedback, true));
   paint({120, 120, 120});
   EXPECT_TRUE(tracking.process(frame_, feedback));
 }

@@ -110,5 +110,40 @@ TEST_F(DetectionMask, ADetectedHandOutOfTheWorkingRangeIsNotTaken) {
   EXPECT_FALSE(observe(person(), detection)->hand_present);
 }
 
+/// That hand alone, and with a plate of the colour of skin beside its fingers, at the same depth.
+PaintedScene bare_hand() { return PaintedScene().hand(-0.1, 0.05, kZ); }
+PaintedScene hand_with_plate() { return bare_hand().patch(-0.06, -0.15, 0.06, -0.02, kZ, test::kSkin); }
+
+TEST_F(DetectionMask, LabelsTellAThingOfTheColourOfSkinFromTheHandAsLongAsItTouchesIt) {
+  const auto earlier = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
+  const auto labels = std::make_shared<Detection>(*detected(bare_hand()));
+  labels->whole_frame = false;
+  const auto is_hand = [](const HandObservation& o, double x) { return label_at(o, x, -0.08, kZ) == PixelLabel::hand; };
+
+  observe(bare_hand(), nullptr, {earlier}, 1);
+  EXPECT_FALSE(preprocessor_.needs_labels());
+
+  // Colour alone leaves a strip of the plate in the mask.
+  EXPECT_TRUE(is_hand(*observe(hand_with_plate(), nullptr, {earlier}, 2), -0.05));
+  EXPECT_TRUE(preprocessor_.needs_labels());
+
+  const auto o = observe(hand_with_plate(), labels, {earlier}, 3);
+  EXPECT_FALSE(is_hand(*o, -0.05));
+  EXPECT_TRUE(is_hand(*o, -0.1315));
+  EXPECT_TRUE(preprocessor_.needs_labels());
+
+  observe(bare_hand(), labels, {earlier}, 4);
+  EXPECT_FALSE(preprocessor_.needs_labels());
+}
+
+TEST_F(DetectionMask, AtAStartSkinThatIsLabelledAsObjectIsHandOnItsBonesOnly) {
+  const auto detection = std::make_shared<Detection>(*detected(bare_hand()));
+  LabelMap& labels = detection->hands[0].labels;
+  labels.label.reset(labels.label.width(), labels.label.height(), SurfaceLabel::object);
+  const auto o = observe(hand_with_plate(), detection);
+  EXPECT_EQ(label_at(*o, -0.1, 0.02, kZ), PixelLabel::hand);
+  EXPECT_NE(label_at(*o, 0.02, -0.08, kZ), PixelLabel::hand);
+}
+
 }  // namespace
 }  // namespace barehand
