@@ -33,12 +33,12 @@ bool StandingDepth::sensor_moved(const CoarseGrid& grid) const {
   return farther > unchanged;
 }
 
-void StandingDepth::forget_around(const CoarseGrid& grid, const CoarseHand& start) {
+void StandingDepth::forget_around(const CoarseGrid& grid, const CoarseHand& hand) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int count = 0;
   for (int r = 0; r < grid.z.height(); ++r)
     for (int c = 0; c < grid.z.width(); ++c) {
-      if (!start.cells.at(c, r)) continue;
+      if (!hand.cells.at(c, r)) continue;
       sum += grid.point(c, r);
       ++count;
     }
@@ -60,7 +60,7 @@ void StandingDepth::update(const CoarseGrid& grid, std::span<const CoarseHand> h
     seconds_.reset(grid.z.width(), grid.z.height());
   }
   for (const CoarseHand& hand : hands)
-    if (hand.found && !hand.followed) forget_around(grid, hand);
+    if (hand.found && !hand.standing) forget_around(grid, hand);
 
   // Visit the cells that may be skin; the colour of the others tells them from a hand.
   for (int r = 0; r < grid.z.height(); ++r)

@@ -15,7 +15,7 @@ class StandingDepth {
  public:
   /// Learns from the cells that may be skin; to be called once a frame, after the hands were found in it. Cells near a
   /// hand or its forearm learn nothing, but forget where something farther away shows. Cells around a hand that was not
-  /// followed to this frame forget everything, since until then the hand itself may have stood there.
+  /// tracked until now forget everything, since the hand itself may have stood there.
   void update(const CoarseGrid& grid, std::span<const CoarseHand> hands, std::int64_t utime);
 
   /// Depth [m] of what stands in the cell (column, row); 0 = nothing is known.
@@ -29,7 +29,7 @@ class StandingDepth {
  private:
   static constexpr float kStands = 0.5f;  // time after which an unchanged surface counts as standing [s]
   bool sensor_moved(const CoarseGrid& grid) const;
-  void forget_around(const CoarseGrid& grid, const CoarseHand& start);
+  void forget_around(const CoarseGrid& grid, const CoarseHand& hand);
 
   Image<float> depth_;    // remembered depth of each cell [m]; 0 = none
   Image<float> seconds_;  // for how long the cell has shown it [s]

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "stages/preprocess/preprocess.h"
 #include "tests/preprocess/painted_scene.h"
 
@@ -21,16 +23,23 @@ constexpr int kLong = 30, kShort = 5;  // frames of 1/30 s: long enough to stand
 /// A wall and a block before it that is coloured like skin.
 PaintedScene block(double z = kZ) { return PaintedScene().patch(kBlock, kY - 0.08, kBlock + 0.04, kY, z, test::kSkin); }
 
-/// Preprocesses frames of a scene in which a hand, tracked or not, has its wrist at (x, kY, z).
+/// Preprocesses frames of a scene in which a hand has its wrist at (x, kY, z).
 class StandingDepthTest : public ::testing::Test {
  protected:
-  HandObservationPtr see(PaintedScene scene, double x, double z = kZ, int frames = 1, bool tracked = true) {
+  /// `status`: that of the hand in the feedback; none: there is no feedback.
+  HandObservationPtr see(PaintedScene scene, double x, double z = kZ, int frames = 1,
+                         std::optional<TrackStatus> status = TrackStatus::tracking,
+                         const DetectionPtr& detection = nullptr) {
     scene.hand(x, kY, z);
     HandObservationPtr last;
     for (int i = 0; i < frames; ++i, ++number_) {
       HandEstimates feedback;
-      if (tracked) feedback.push_back(std::make_shared<HandEstimate>(painted_hand_estimate(x, kY, z, number_ - 1)));
-      const Result<HandObservations> seen = preprocessor_.process(scene.share(number_), feedback);
+      if (status) {
+        HandEstimate earlier = painted_hand_estimate(x, kY, z, number_ - 1);
+        earlier.status = *status;
+        feedback.push_back(std::make_shared<HandEstimate>(std::move(earlier)));
+      }
+      const Result<HandObservations> seen = preprocessor_.process(scene.share(number_), feedback, detection);
       EXPECT_TRUE(seen.has_value());
       last = seen->front();
     }
@@ -70,10 +79,20 @@ TEST_F(StandingDepthTest, WhatWasTakenAwayIsForgotten) {
 }
 
 TEST_F(StandingDepthTest, AHandThatRestedBeforeItWasTrackedIsAHand) {
-  see(block(), kX, kZ, kLong, false);
+  see(block(), kX, kZ, kLong, std::nullopt);
   const auto o = see(block(), kX);
   EXPECT_EQ(label_at(*o, kX, kY - 0.04, kZ), PixelLabel::hand);
   EXPECT_EQ(label_at(*o, kX + 0.0315, kY - 0.16, kZ), PixelLabel::hand);
+}
+
+TEST_F(StandingDepthTest, AHandThatRestedUnseenAndIsFollowedAgainIsAHand) {
+  const auto nothing = std::make_shared<Detection>();
+  nothing->whole_frame = true;
+  EXPECT_FALSE(see(block(), kX, kZ, kLong, std::nullopt, nothing)->hand_present);
+  EXPECT_TRUE(see(block(), kX, kZ, 1, TrackStatus::holding)->followed);
+  const auto o = see(block(), kX);
+  EXPECT_TRUE(o->followed);
+  EXPECT_EQ(label_at(*o, kX, kY - 0.04, kZ), PixelLabel::hand);
 }
 
 TEST_F(StandingDepthTest, AMovedSensorForgetsEverything) {
