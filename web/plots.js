@@ -85,7 +85,8 @@ export class Plots {
       if (last) this.curve(draw, samples, x, (s) => y(value(s)), value);
       const now = last && last.known ? value(last) : NaN;
       const digits = row.unit === "°" ? 0 : 2;
-      const text = `${name} ${Number.isFinite(now) ? now.toFixed(digits) + row.unit : "–"}`;
+      const shown = now.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1");  // no minus zero
+      const text = `${name} ${Number.isFinite(now) ? shown + row.unit : "–"}`;
       right -= row.lines.length > 1 ? 62 : 0;
       draw.textAlign = row.lines.length > 1 ? "left" : "right";
       draw.fillText(text, right, box.y + 10);

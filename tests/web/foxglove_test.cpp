@@ -212,14 +212,14 @@ TEST_P(FoxgloveServer, OtherProtocolsAndOriginsAreRefused) {
   for (const std::string protocol : {"", "Sec-WebSocket-Protocol: mqtt\r\n"}) {
     test::RawClient client(port());
     client.send("GET / HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n" + protocol) + "\r\n");
-    EXPECT_NE(test::status_of(client.read(false)), 101) << protocol;
+    EXPECT_EQ(test::status_of(client.read(false)), 404) << protocol;
   }
   test::RawClient foreign(port());
   foreign.send("GET / HTTP/1.1\r\n" +
                test::upgrade("Host: localhost\r\nOrigin: https://example.org\r\n"
                              "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n") +
                "\r\n");
-  EXPECT_NE(test::status_of(foreign.read(false)), 101);
+  EXPECT_EQ(test::status_of(foreign.read(false)), 403);
   EXPECT_EQ(server_->clients(), 0);
 }
 

@@ -13,6 +13,9 @@
 
 namespace barehand {
 
+constexpr const char* kForeign =
+    "Requests for other hosts and from pages of other origins are refused. --view-origin invites a page.";
+
 /// The server's data about one connection.
 struct WebConnection {
   std::unique_ptr<WebPeer> peer;
@@ -84,6 +87,7 @@ class WebServer::Impl {
   /// Answers an HTTP request.
   int answer(mg_connection* connection) const;
   static void send_error(mg_connection* connection, int status, const char* text);
+  static bool refuse(const mg_connection* connection, int status, const std::string& text);
   bool is_allowed(const mg_connection* connection) const;
   bool admit(const mg_connection* connection);
   void ready(mg_connection* connection);
@@ -95,7 +99,9 @@ class WebServer::Impl {
     return static_cast<Impl*>(self)->admit(connection) ? 0 : 1;
   }
   static int on_connect_protocol(const mg_connection* connection, void* self) {
-    return chosen_protocol(connection) ? on_connect(connection, self) : 1;
+    if (chosen_protocol(connection)) return on_connect(connection, self);
+    refuse(connection, 404, "There is no WebSocket here that speaks such a protocol.");
+    return 1;
   }
   static void on_ready(mg_connection* connection, void* self) { static_cast<Impl*>(self)->ready(connection); }
   static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void*) {
@@ -200,7 +206,7 @@ int WebServer::Impl::answer(mg_connection* connection) const {
 
   // Refuse requests that do not come from an allowed page or are not for one of the files.
   if (!is_allowed(connection))
-    send_error(connection, 403, "Requests for other hosts and from pages of other origins are refused.");
+    send_error(connection, 403, kForeign);
   else if (method != "GET" && method != "HEAD")
     send_error(connection, 405, "Files can be read only.");
   else if (const auto file = file_of(connection); !file)
@@ -219,12 +225,24 @@ int WebServer::Impl::answer(mg_connection* connection) const {
   return 1;  // the request has been handled, whatever the status
 }
 
+/// Answers a request for a WebSocket with an HTTP error: civetweb itself closes the connection without a word, and its
+/// function for errors sends nothing here. Returns false.
+bool WebServer::Impl::refuse(const mg_connection* connection, int status, const std::string& text) {
+  mg_printf(const_cast<mg_connection*>(connection),  // constant only because civetweb declares its handlers so
+            "HTTP/1.1 %d %s\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: %zu\r\n"
+            "Connection: close\r\n\r\n%s",
+            status, mg_get_response_code_text(connection, status), text.size(), text.c_str());
+  return false;
+}
+
 bool WebServer::Impl::admit(const mg_connection* connection) {
+  if (!is_allowed(connection)) return refuse(connection, 403, kForeign);
   // civetweb fails to answer a longer key, and does not report that the connection has ended.
-  if (!is_allowed(connection) || header(connection, "Sec-WebSocket-Key").size() > kLongestKey) return false;
+  if (header(connection, "Sec-WebSocket-Key").size() > kLongestKey)
+    return refuse(connection, 400, "The key of the WebSocket is too long.");
   if (++open_ <= kMaxClients + kMaxTurnedAway) return true;
   --open_;
-  return false;
+  return refuse(connection, 503, "Too many pages and viewers are connected.");
 }
 
 void WebServer::Impl::ready(mg_connection* connection) {
