@@ -56,14 +56,34 @@ TEST(ScanPage, TellsTheEndToWhoeverLooks) {
   ViewState state;
   state.T_world_camera = SE3{};
   state.scan = view_scan("", {}, *start, *start);
-  ScanPage page(server->get(), state);
-  page.done("Saved.", &longer);
+  ScanPage(server->get(), state).done("Saved.", &longer);
   server->reset();
   const auto status = nlohmann::json::parse(client.text().value());
   EXPECT_EQ(status["scan"]["phase"], "done");
   EXPECT_EQ(status["scan"]["progress"], "Saved.");
   EXPECT_NEAR(status["scan"]["segments"][0]["after"].get<double>(), longer.segments[kPalm].length, 1e-9);
   EXPECT_FALSE(status["T_world_camera"].is_null()) << "the room stays";
+}
+
+TEST(ScanPage, GoesOnSayingTheStateWhileNothingNewHappens) {
+  const SystemClock clock;
+  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
+  ASSERT_TRUE(server) << server.error().message();
+  const std::string url = (*server)->url();
+  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  client.send("?");
+  ASSERT_TRUE(client.text());
+
+  const auto start = test::adult_hand();
+  ViewState state;
+  state.scan = view_scan("", {}, *start, *start);
+  ScanPage page(server->get(), state);
+  page.measuring("Measuring.");
+  for (int i = 0; i < 3; ++i) {
+    const auto text = client.text();
+    ASSERT_TRUE(text) << i;
+    EXPECT_EQ(nlohmann::json::parse(*text)["scan"]["progress"], "Measuring.");
+  }
 }
 
 }  // namespace

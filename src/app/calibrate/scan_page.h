@@ -1,6 +1,9 @@
 #pragma once
 
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "app/calibrate/scan_report.h"
 #include "hand/profile.h"
@@ -14,12 +17,13 @@ namespace barehand {
 ViewScan view_scan(const std::string& how_to, const ScanReport& report, const HandProfile& start,
                    const HandProfile& now);
 
-/// Shows on the live page, if there is one, how a scan continues after its last frame.
+/// Shows on the live page, if there is one, how a scan continues after its last frame. The state is sent again and
+/// again, since measuring says something new only every few seconds, and browsers take silence for a lost connection.
 class ScanPage {
  public:
   /// `server`: null if there is no page; otherwise it must outlive this object. `state`: state of the page at the last
   /// frame, with its scan.
-  ScanPage(ViewServer* server, ViewState state) : server_(server), state_(std::move(state)) {}
+  ScanPage(ViewServer* server, ViewState state);
   /// Shows how the measuring goes. The first call returns when every browser that reads has received it.
   void measuring(const std::string& progress) { show(ViewScan::Phase::measuring, progress); }
   /// Shows the end of the scan; when it returns, every browser that reads has received it. `result`: the measured
@@ -28,9 +32,13 @@ class ScanPage {
 
  private:
   void show(ViewScan::Phase phase, const std::string& progress);
+  void send();
 
   ViewServer* server_;
+  std::mutex mutex_;  // guards state_
   ViewState state_;
+  std::condition_variable_any tick_;
+  std::jthread repeat_;  // last, so that it ends first
 };
 
 }  // namespace barehand
