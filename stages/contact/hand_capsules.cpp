@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/share_along.h"
+
 namespace barehand {
 namespace {
 
@@ -25,8 +27,7 @@ bool joined_by_skin(int a, int b) {
 /// Distance from a capsule's axis to its skin in the direction `d` (unit vector in the segment frame), at a point of
 /// the axis [m].
 double radius_towards(const HandCapsules::Capsule& capsule, const Vector3d& at, const Vector3d& d) {
-  const Vector3d along = capsule.axis[1] - capsule.axis[0];
-  const double t = std::clamp((at - capsule.axis[0]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  const double t = share_along(capsule.axis[0], capsule.axis[1], at);
   const auto mix = [&](const std::array<double, 2>& ends) { return ends[0] + t * (ends[1] - ends[0]); };
   const double width = mix(capsule.half_width), thickness = mix(capsule.half_thickness),
                length = std::min(width, thickness);

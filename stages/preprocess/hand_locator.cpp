@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/share_along.h"
+
 namespace barehand {
 namespace {
 
@@ -39,15 +41,13 @@ constexpr double kCloseBy = 0.05;   // motion that is allowed for a hand that to
 /// Distance [m] of a point from the nearest bone of a detected hand.
 float bone_distance(const DetectedHand& hand, const Eigen::Vector3f& p) {
   const auto joint = [&](int landmark) -> Eigen::Vector3f { return hand.joints[landmark].position.cast<float>(); };
-  float nearest_sq = INFINITY;
+  float nearest = INFINITY;
   for (int finger = 0; finger < kFingerCount; ++finger)
     for (int k = 0; k < 4; ++k) {
       const Eigen::Vector3f start = joint(k == 0 ? kWristLandmark : landmark_of(finger, k - 1));
-      const Eigen::Vector3f bone = joint(landmark_of(finger, k)) - start;
-      const float along = std::clamp((p - start).dot(bone) / std::max(bone.squaredNorm(), 1e-9f), 0.f, 1.f);
-      nearest_sq = std::min(nearest_sq, (p - start - along * bone).squaredNorm());
+      nearest = std::min(nearest, segment_distance(start, joint(landmark_of(finger, k)), p));
     }
-  return std::sqrt(nearest_sq);
+  return nearest;
 }
 
 }  // namespace
@@ -59,9 +59,8 @@ std::span<const CoarseHand> HandLocator::find(const CoarseGrid& grid, const Stan
   finder_.find(grid, params_, all_candidates_);
   use_labels_ = detection && (!grid.coloured || colour_misleads_);
   if (use_labels_) remove_labelled(grid, *detection);
-  touched_ = false;
+  colour_misleads_ = false;  // until something touches a hand
   locate(grid, standing, feedback, feedback_age, detection);
-  colour_misleads_ = touched_;
   return hands_;
 }
 
@@ -140,8 +139,9 @@ void HandLocator::remove_labelled(const CoarseGrid& grid, const Detection& detec
       for (const DetectedHand& hand : detection.hands) {
         if (!hand.labels.covers(pixel.x(), pixel.y())) continue;
         covered = true;
-        is_hand |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::hand;
-        is_arm |= hand.labels.at(pixel.x(), pixel.y()) == SurfaceLabel::arm;
+        const SurfaceLabel label = hand.labels.at(pixel.x(), pixel.y());
+        is_hand |= label == SurfaceLabel::hand;
+        is_arm |= label == SurfaceLabel::arm;
       }
 
       if (covered && !is_hand) {
@@ -287,7 +287,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     const MatchCounts& own = match_counts_[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
-    touched_ |= leaks && grid.coloured;
+    colour_misleads_ |= leaks && grid.coloured;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
 
@@ -298,7 +298,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
   }
 
   // Where colour misled in the last frame, find out whether it still would.
-  if (use_labels_ && grid.coloured) touched_ |= touches_labelled(grid, body);
+  if (use_labels_ && grid.coloured) colour_misleads_ |= touches_labelled(grid, body);
 
   // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;

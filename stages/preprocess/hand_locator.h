@@ -64,7 +64,6 @@ class HandLocator {
   std::vector<MatchCounts> match_counts_;  // numbers of matching cells for every surface
   bool colour_misleads_ = false;
   bool use_labels_ = false;  // whether labels tell in this frame what is not hand
-  bool touched_ = false;     // whether something that looks like skin touches a hand in this frame
   std::vector<CoarseHand> hands_;
   std::vector<std::optional<PredictedHand>> predictions_;
 };

@@ -5,6 +5,7 @@
 
 #include "drivers/synthetic/people/hand_wandering.h"
 #include "drivers/synthetic/rendering/shapes.h"
+#include "math/share_along.h"
 
 namespace barehand::synthetic {
 namespace {
@@ -43,16 +44,9 @@ std::pair<SceneObject, double> make_tall_object(KeyedRandom& random) {
   return {{"cylinder", make_turned(outline), {{90, shade, 140}}}, 2 * half};
 }
 
-/// Distance of a point from the line segment between two others [m].
-double distance_from(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d line = end - begin;
-  const double t = std::clamp((place - begin).dot(line) / std::max(line.squaredNorm(), 1e-9), 0.0, 1.0);
-  return (place - begin - t * line).norm();
-}
-
 bool is_free(const FreeLines& lines, const Eigen::Vector2d& place) {
-  return std::min(distance_from(lines.hand, lines.shoulder, place), distance_from(lines.hand, lines.camera, place)) >
-         kApart;
+  return std::min(segment_distance(lines.hand, lines.shoulder, place),
+                  segment_distance(lines.hand, lines.camera, place)) > kApart;
 }
 
 }  // namespace

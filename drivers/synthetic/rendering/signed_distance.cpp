@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/share_along.h"
+
 namespace barehand::synthetic {
 
 // Signed distances of simple solids, with which the grasp planner finds contacts.
@@ -23,11 +25,8 @@ SignedDistance cylinder_distance(double radius, double half_height) {
 SignedDistance tube_distance(std::vector<Vector3d> path, double radius) {
   return [path = std::move(path), radius](const Vector3d& p) {
     double nearest = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const Vector3d along = path[i + 1] - path[i];
-      const double t = std::clamp((p - path[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (p - path[i] - t * along).norm());
-    }
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+      nearest = std::min(nearest, segment_distance(path[i], path[i + 1], p));
     return nearest - radius;
   };
 }
