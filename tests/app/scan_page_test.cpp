@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "support/adult_hand.h"
 #include "web/web_client.h"
@@ -41,46 +43,44 @@ TEST(ScanPage, SaysWhatIsStillToBeShownAndHowTheLengthsChange) {
   EXPECT_NEAR(scan.segments[kPalm].after - scan.segments[kPalm].before, 0.01, 1e-12);
 }
 
-TEST(ScanPage, TellsTheEndToWhoeverLooks) {
-  const SystemClock clock;
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
-  ASSERT_TRUE(server) << server.error().message();
-  const std::string url = (*server)->url();
-  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
-  client.send("?");
-  ASSERT_TRUE(client.text());
+/// A page of a scan that has just begun, and a client that looks at it.
+class ShownScanPage : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock_);
+    ASSERT_TRUE(server) << server.error().message();
+    server_ = std::move(*server);
+    client_.emplace(test::port_of(server_->url()));
+    client_->send("?");
+    ASSERT_TRUE(client_->text());
+    state_.scan = view_scan("", {}, *start_, *start_);
+  }
 
-  const auto start = test::adult_hand();
-  HandProfile longer = *start;
+  const std::shared_ptr<const HandProfile> start_ = test::adult_hand();
+  const SystemClock clock_;
+  std::unique_ptr<ViewServer> server_;
+  std::optional<test::SocketClient> client_;
+  ViewState state_;
+};
+
+TEST_F(ShownScanPage, TellsTheEndToWhoeverLooks) {
+  HandProfile longer = *start_;
   longer.segments[kPalm].length += 0.01;
-  ViewState state;
-  state.T_world_camera = SE3{};
-  state.scan = view_scan("", {}, *start, *start);
-  ScanPage(server->get(), state).done("Saved.", &longer);
-  server->reset();
-  const auto status = nlohmann::json::parse(client.text().value());
+  state_.T_world_camera = SE3{};
+  ScanPage(server_.get(), state_).done("Saved.", &longer);
+  server_.reset();
+  const auto status = nlohmann::json::parse(client_->text().value());
   EXPECT_EQ(status["scan"]["phase"], "done");
   EXPECT_EQ(status["scan"]["progress"], "Saved.");
   EXPECT_NEAR(status["scan"]["segments"][0]["after"].get<double>(), longer.segments[kPalm].length, 1e-9);
   EXPECT_FALSE(status["T_world_camera"].is_null()) << "the room stays";
 }
 
-TEST(ScanPage, GoesOnSayingTheStateWhileNothingNewHappens) {
-  const SystemClock clock;
-  auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
-  ASSERT_TRUE(server) << server.error().message();
-  const std::string url = (*server)->url();
-  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
-  client.send("?");
-  ASSERT_TRUE(client.text());
-
-  const auto start = test::adult_hand();
-  ViewState state;
-  state.scan = view_scan("", {}, *start, *start);
-  ScanPage page(server->get(), state);
+TEST_F(ShownScanPage, GoesOnSayingTheStateWhileNothingNewHappens) {
+  ScanPage page(server_.get(), state_);
   page.measuring("Measuring.");
   for (int i = 0; i < 3; ++i) {
-    const auto text = client.text();
+    const auto text = client_->text();
     ASSERT_TRUE(text) << i;
     EXPECT_EQ(nlohmann::json::parse(*text)["scan"]["progress"], "Measuring.");
   }

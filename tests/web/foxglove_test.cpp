@@ -43,7 +43,7 @@ class Foxglove : public testing::TestWithParam<const char*> {
     options.address.port = 0;
     server_ = ViewServer::start(std::move(options), clock_).value();
   }
-  int port() const { return std::stoi(server_->url().substr(server_->url().rfind(':') + 1)); }
+  int port() const { return test::port_of(server_->url()); }
   /// The server knows it when it returns.
   std::unique_ptr<SocketClient> viewer() const {
     auto client = std::make_unique<SocketClient>(port(), "/", GetParam());

@@ -19,8 +19,7 @@ TEST(LiveView, ShowsWhatATrackerSends) {
   const SystemClock clock;
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server) << server.error().message();
-  const std::string url = (*server)->url();
-  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  test::SocketClient client(test::port_of((*server)->url()));
   client.send(R"({"type": "want"})");
   client.send("?");
   ASSERT_TRUE(client.text());
@@ -78,8 +77,7 @@ TEST(LiveView, SaysThatNobodySends) {
   ManualClock time(1'000'000);
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   ASSERT_TRUE(server);
-  const std::string url = (*server)->url();
-  test::SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  test::SocketClient client(test::port_of((*server)->url()));
   auto bus = LcmBus::open("memq://");
   ASSERT_TRUE(bus);
   LiveView live(std::move(*bus), {"DESK_", {}, nullptr}, ShownHands({}), **server, time);

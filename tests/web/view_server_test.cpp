@@ -24,7 +24,7 @@ class ViewServerTest : public testing::Test {
     ASSERT_TRUE(server) << server.error().message();
     server_ = std::move(*server);
   }
-  int port() const { return std::stoi(server_->url().substr(server_->url().rfind(':') + 1)); }
+  int port() const { return test::port_of(server_->url()); }
   void show(std::int64_t number) {
     ViewFrame::Content content;
     content.number = number;

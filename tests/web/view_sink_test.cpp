@@ -43,8 +43,7 @@ TEST(ViewSink, SendsWhatTheBusGets) {
   ASSERT_TRUE(server) << server.error().message();
   const PublishParams params;
   ViewSink sink(params, **server, {"test", true, [] { return PipelineHealth{}; }}, clock);
-  const std::string& url = (*server)->url();
-  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  SocketClient client(test::port_of((*server)->url()));
   client.send(R"({"type": "want", "cloud": "hand"})");
   client.send("?");
   ASSERT_TRUE(client.text());
@@ -118,8 +117,7 @@ TEST(ViewSink, TellsTheStateOfTheRecorderAtOnce) {
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, &recorder}, clock);
   ASSERT_TRUE(server);
   ViewSink sink({}, **server, {"test", true, [] { return PipelineHealth{}; }, {}, {}, "", &recorder}, time);
-  const std::string& url = (*server)->url();
-  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  SocketClient client(test::port_of((*server)->url()));
   ASSERT_TRUE(sink.idle());
   auto status = nlohmann::json::parse(client.text().value());
   EXPECT_EQ(status["record"]["folder"], folder.path());
@@ -152,8 +150,7 @@ TEST(ViewSink, SmoothsOnWhileNobodyLooks) {
     bus.process(*moved(number).estimates[0]);
   }
 
-  const std::string& url = (*server)->url();
-  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  SocketClient client(test::port_of((*server)->url()));
   client.send(R"({"type": "want"})");
   client.send("?");
   ASSERT_TRUE(client.text());
@@ -179,8 +176,7 @@ nlohmann::json silent_status(ViewSink::Input input) {
   auto server = ViewServer::start({{"127.0.0.1", 0}, {}, {}, nullptr}, clock);
   EXPECT_TRUE(server);
   ViewSink sink({}, **server, std::move(input), time);
-  const std::string& url = (*server)->url();
-  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  SocketClient client(test::port_of((*server)->url()));
   client.send("?");
   EXPECT_TRUE(client.text());
   time.advance(5'000'000);
@@ -219,8 +215,7 @@ TEST(ViewSink, SaysAtTheEndHowManyFramesWereTracked) {
   ASSERT_TRUE(server);
   ManualClock time(1'000'000);
   ViewSink sink({}, **server, {"test", false, [] { return health(7, 7, 0); }}, time);
-  const std::string& url = (*server)->url();
-  SocketClient client(std::stoi(url.substr(url.rfind(':') + 1)));
+  SocketClient client(test::port_of((*server)->url()));
   client.send("?");
   ASSERT_TRUE(client.text());
   time.advance(5'000'000);

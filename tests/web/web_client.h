@@ -51,6 +51,9 @@ class RawClient {
   const int socket_;
 };
 
+/// The port of a server's address, such as http://localhost:8765.
+inline int port_of(const std::string& url) { return std::stoi(url.substr(url.rfind(':') + 1)); }
+
 /// The answer to an HTTP request of this path and these further header lines.
 inline std::string answer_of(int port, const std::string& path, const std::string& headers = "Host: localhost\r\n") {
   RawClient client(port);
