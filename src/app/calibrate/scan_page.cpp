@@ -29,7 +29,10 @@ ScanPage::ScanPage(ViewServer* server, ViewState state) : server_(server), state
   static constexpr std::chrono::milliseconds kPause{400};  // docs/view_protocol.md promises two a second
   repeat_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (!tick_.wait_for(lock, stop, kPause, [] { return false; }) && !stop.stop_requested()) send();
+    while (!stop.stop_requested()) {
+      tick_.wait_for(lock, stop, kPause, [] { return false; });
+      if (!stop.stop_requested()) send();
+    }
   });
 }
 

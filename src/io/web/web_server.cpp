@@ -13,9 +13,6 @@
 
 namespace barehand {
 
-constexpr const char* kForeign =
-    "Requests for other hosts and from pages of other origins are refused. --view-origin invites a page.";
-
 /// The server's data about one connection.
 struct WebConnection {
   std::unique_ptr<WebPeer> peer;
@@ -24,6 +21,9 @@ struct WebConnection {
 };
 
 namespace {
+
+constexpr const char* kForeign =
+    "Requests for other hosts and from pages of other origins are refused. --view-origin invites a page.";
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr std::size_t kLongestKey = 24;            // size of a Sec-WebSocket-Key: 16 bytes in Base64 (RFC 6455)
