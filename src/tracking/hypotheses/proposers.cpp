@@ -62,9 +62,13 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
 std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& observation, const HandModel& hand,
                                                          Track& track, const Hypothesis& followed,
                                                          std::uint32_t frame) const {
-  // A tentative track gets a full search, since the quick search that found it might repeat its mistake.
+  // A tentative track is compared with what the networks see now. Without a detection it gets a full search, since the
+  // quick search that found it might repeat its mistake.
   const TrackerParams& params = context_.params;
-  if (track.tentative()) return search_once(observation, hand, track, Effort::full, 0, frame);
+  if (track.tentative()) {
+    if (observation.detected) return detected(observation, hand);
+    return search_once(observation, hand, track, Effort::full, 0, frame);
+  }
   if (!track.is_ambiguous(followed.score(), params.choice)) return std::nullopt;
 
   // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
