@@ -56,7 +56,7 @@ const connection = new Connection({
     status = message;
     byId("source").textContent = message.source;
     showHealth(message);
-    timeline.show(message.log, hasStates());
+    timeline.show(message.log, shown);
     applyRoom();
     recorder.show(message.record);
     showScan(message.scan || null);
@@ -67,8 +67,8 @@ const connection = new Connection({
     for (const skin of frame.skins) scene ? scene.setSkin(skin) : skins[skin.side] = skin;
     frameAt = performance.now();
     if (!state.freeze) {
+      await (decoding = decoding.then(() => picture.decode(frame)));  // so that hand, image and plots show the same frame
       plots.add(frame);
-      await (decoding = decoding.then(() => picture.decode(frame)));  // so that hand and image show the same frame
       if (latest) picture.release(latest);  // the previous frame was never shown
       latest = frame;
     }
@@ -80,7 +80,8 @@ const recorder = new Recorder((message) => connection.send(message));
 
 // Called once for every refresh of the display.
 function loop(now) {
-  if (latest) {
+  const isNew = latest !== null;
+  if (isNew) {
     if (shown) picture.release(shown);
     shown = latest;
     latest = null;
@@ -90,15 +91,22 @@ function loop(now) {
   }
   if (scene) scene.draw(now);
   for (; unacknowledged > 0; --unacknowledged) connection.acknowledge();
-  if (now - (loop.slowAt || 0) > 100) {
+  const slow = now - (loop.slowAt || 0) > 100;
+  if (slow || (isNew && timeline.active)) tell();  // live, texts that change with every frame could not be read
+  if (slow) {
     loop.slowAt = now;
     plots.draw(theme());
-    if (shown && (open || ended)) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
     meter.show(status && status.live, performance.now());
     showContacts();
-    notice(problem());
   }
   requestAnimationFrame(loop);
+}
+
+// Shows all texts about the frame that is shown, together, so that they agree.
+function tell() {
+  if (shown && (open || ended)) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
+  if (timeline.active) timeline.show(timeline.log, shown);
+  notice(problem());
 }
 
 function showPicture(frame) {
@@ -127,7 +135,6 @@ function problem() {
   return lost ? "The hand is lost. Show it again, open, to the sensor." : "No hand in view. Hold an open hand before the sensor.";
 }
 
-function hasStates() { return shown !== null && shown.states.length > 0; }
 // Whether the tracker, or the log, says what the hands touch.
 function hasContacts() { return shown !== null && shown.contacts.length > 0; }
 function showContacts() {
@@ -150,7 +157,6 @@ function applyRoom() {
 function theme() { return document.documentElement.dataset.theme; }
 function applyTheme() {
   if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim(), theme());
-  if (timeline.active) timeline.show(timeline.log, hasStates());
 }
 function setTheme(name) {
   document.documentElement.dataset.theme = name;

@@ -44,10 +44,10 @@ function cloud(view, coloured) {
           colour: coloured ? new Uint16Array(view.buffer, at + 2 * count, count) : null};
 }
 
-// Decodes a message to {header, states, gloves, contacts, grasps, objects, skins, cloud, picture, damage}; header, cloud
-// and picture are null if missing. `damage` says of each LCM message that was left out why.
+// Decodes a message to {header, place, states, gloves, contacts, grasps, objects, skins, cloud, picture, damage}; header,
+// place (in a log), cloud and picture are null if missing. `damage` says of each LCM message that was left out why.
 export function decodeFrame(buffer) {
-  const frame = {header: null, states: [], gloves: [], contacts: [], grasps: [], objects: [], skins: [], cloud: null,
+  const frame = {header: null, place: null, states: [], gloves: [], contacts: [], grasps: [], objects: [], skins: [], cloud: null,
                  picture: null, damage: []};
   const whole = new DataView(buffer);
   for (let at = 0; at + 8 <= buffer.byteLength;) {
@@ -55,6 +55,7 @@ export function decodeFrame(buffer) {
     const length = whole.getUint32(at + 4, true);
     const view = new DataView(buffer, at + 8, length);
     if (kind === "F") frame.header = header(view);
+    if (kind === "T") frame.place = {position: Number(view.getBigInt64(0, true)), at: view.getFloat64(8, true)};
     if (kind === "L") lcmMessage(view, frame);
     if (kind === "S") frame.skins.push(skin(view, index));
     if (kind === "D") frame.cloud = cloud(view, index === 1);

@@ -20,22 +20,24 @@ export class Timeline {
   step(frames) { this.send({type: "step", value: frames}); }
   lost(direction) { this.send({type: "lost", value: direction}); }
 
-  // `states`: whether the frame that is shown has states of hands.
-  show(log, states) {
+  // `log`: of the status; null: no log is played. `frame`: the frame that is shown, whose place the time line says; it may
+  // be older than the one of the status, which a slow browser gets before the frame. null: none is shown yet.
+  show(log, frame) {
     this.log = log;
     byId("timeline").hidden = log === null;
     if (!log) return;
     byId("position").max = Math.max(0, log.frames - 1);
-    if (document.activeElement !== byId("position") || log.playing) byId("position").value = log.position;
     byId("play").textContent = log.playing ? "❚❚" : "▶";
     byId("speed").value = String(log.speed);
-    byId("lost_before").disabled = !log.lost.some(([first]) => first < log.position);
-    byId("lost_next").disabled = !log.lost.some(([first]) => first > log.position);
-    const lost = log.lost.reduce((sum, [first, last]) => sum + last - first + 1, 0);
-    const hands = lost > 0 ? `${lost} frames without a hand` : states ? "a hand in every frame" : "no states of hands";
-    byId("log_time").textContent = `frame ${log.position + 1} of ${log.frames}, ${log.at.toFixed(2)} s of ` +
-      `${log.seconds.toFixed(2)} s; ${hands}`;
     this.mark(log);
+    if (!frame || !frame.place) return;
+    const {position, at} = frame.place;
+    if (document.activeElement !== byId("position") || log.playing) byId("position").value = position;
+    byId("lost_before").disabled = !log.lost.some(([first]) => first < position);
+    byId("lost_next").disabled = !log.lost.some(([first]) => first > position);
+    const lost = log.lost.reduce((sum, [first, last]) => sum + last - first + 1, 0);
+    const hands = lost > 0 ? `${lost} frames without a hand` : frame.states.length > 0 ? "a hand in every frame" : "no states of hands";
+    byId("log_time").textContent = `frame ${position + 1} of ${log.frames}, ${at.toFixed(2)} s of ${log.seconds.toFixed(2)} s; ${hands}`;
   }
 
   mark(log) {
@@ -43,13 +45,14 @@ export class Timeline {
     canvas.width = canvas.clientWidth;
     canvas.height = 10;
     const style = getComputedStyle(document.documentElement);
-    const x = (frame) => canvas.width * frame / Math.max(1, log.frames);
+    const x = (frame) => canvas.width * frame / Math.max(1, log.frames - 1);  // where the middle of the slider's knob is
     draw.fillStyle = style.getPropertyValue("--good");
     draw.fillRect(0, 3, canvas.width, 4);
     draw.fillStyle = style.getPropertyValue("--bad");
     for (const [first, last] of log.lost) {
-      draw.clearRect(x(first), 0, Math.max(2, x(last + 1) - x(first)), 10);
-      draw.fillRect(x(first), 1, Math.max(2, x(last + 1) - x(first)), 8);
+      const left = x(first - 0.5), width = Math.max(2, x(last + 0.5) - left);
+      draw.clearRect(left, 0, width, 10);
+      draw.fillRect(left, 1, width, 8);
     }
   }
 }

@@ -368,6 +368,7 @@ class Log(Page):
         # It plays by itself, and pauses.
         self.wait_for(f"!{hidden('timeline')} && {text('log_time')}.startsWith('frame ') && !{self.at(1)}")
         self.press(" ", f"{text('play')} === '▶'")
+        self.wait_for(self.at(self.log()["position"] + 1))
         here = self.frame()
 
         # Steps, and a jump to the beginning, where there is a hand.
@@ -390,6 +391,42 @@ class Log(Page):
         self.browser.value("(() => { const s = document.getElementById('speed'); s.value = '4'; s.onchange(); })()")
         self.press(" ", f"{self.at(60)} && {text('play')} === '▶'")
 
+
+    def log(self):
+        """What the program tells of the log, which the page may show later."""
+        return self.browser.value(
+            "new Promise((done) => { const socket = new WebSocket(`ws://${location.host}/live`); socket.onmessage ="
+            " ({data}) => { if (typeof data === 'string') { socket.close(); done(JSON.parse(data).log); } }; })")
+
+    def lost(self):
+        """The numbers, from 1, of the frames without a hand."""
+        return [frame + 1 for first, last in self.log()["lost"] for frame in range(first, last + 1)]
+
+    def test_all_texts_are_about_the_frame_that_is_shown(self):
+        self.browser.open(self.program.url)
+        self.wait_for(f"{self.at(60)} && {text('play')} === '▶'")
+        self.browser.value(
+            "(() => { window.seen = []; const look = () => { window.seen.push([" + text("log_time") + ", "
+            + text("hands") + ", " + hidden("notice") + "]); requestAnimationFrame(look); }; look(); })()")
+        self.press(" ", f"!{self.at(60)}")
+        self.wait_for(f"{self.at(60)} && {text('play')} === '▶'")
+        lost, seen = self.lost(), self.browser.value("window.seen")
+        self.assertGreater(len(lost), 5)
+        for line, hands, unnoticed in seen:
+            frame = int(re.match(r"frame (\d+) of 60", line)[1])
+            self.assertEqual(("No pose." in hands, unnoticed), (frame in lost, frame not in lost), line)
+
+    def test_the_time_line_marks_frames_where_its_knob_is(self):
+        self.browser.open(self.program.url)
+        self.wait_for(f"{self.at(60)}")
+        is_red = self.browser.value(
+            "(() => { const line = document.getElementById('position').getBoundingClientRect();"
+            " const marks = document.getElementById('lost_marks'), left = marks.getBoundingClientRect().left;"
+            " const row = marks.getContext('2d').getImageData(0, 5, marks.width, 1).data;"
+            " return Array.from({length: 60}, (_, frame) => { const knob = line.left + 8 + (line.width - 16) * frame / 59;"
+            " const x = Math.min(marks.width - 1, Math.max(0, Math.floor(knob - left)));"
+            " return row[4 * x] > row[4 * x + 1]; }); })()")
+        self.assertEqual([frame + 1 for frame in range(60) if is_red[frame]], self.lost())
 
     def test_a_log_of_images_alone_says_that_it_holds_no_states(self):
         self.browser.open(self.start("view", self.take, "--port", "0").url)

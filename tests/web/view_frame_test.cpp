@@ -53,6 +53,18 @@ TEST(ViewFrame, SendsTimesAndCamera) {
   EXPECT_EQ(chunks[0].at<std::int32_t>(56), 64);
 }
 
+TEST(ViewFrame, SaysWhereInALogItLies) {
+  ViewFrame::Content some;
+  some.place = {12, 0.4};
+  const ViewFrame view(std::move(some));
+  std::vector<std::uint8_t> bytes;
+  view.write_states(0, bytes);
+  const std::vector<Chunk> chunks = chunks_of(text_of(bytes));
+  ASSERT_EQ(test::kinds_of(chunks), "FT");
+  EXPECT_EQ(chunks[1].at<std::int64_t>(0), 12);
+  EXPECT_EQ(chunks[1].at<double>(8), 0.4);
+}
+
 TEST(ViewFrame, SendsMessagesAsTheyAre) {
   ViewFrame::Content some;
   some.messages.push_back({"HAND_STATE", {1, 2, 3, 4, 5}});

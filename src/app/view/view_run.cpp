@@ -113,6 +113,7 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
       ViewFrame::Content content =
           frame_content(index_.messages(state.position), shown_.hands, {}, index_.image(state.position));
       content.T_world_camera = shown_.T_world_camera;
+      content.place = {state.position, state.at};
       server.show(std::make_shared<const ViewFrame>(std::move(content)));
     }
     if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state, shown_.T_world_camera}));

@@ -122,6 +122,14 @@ void ViewFrame::write_states(std::int64_t now, std::vector<std::uint8_t>& out) c
   for (const int size : {camera.width, camera.height}) chunk.put(static_cast<std::int32_t>(size));
   chunk.end();
 
+  // Write the place in the log with the frame itself, since a status may come long before a slow client has the frame.
+  if (content_.place) {
+    chunk.begin('T');
+    chunk.put(content_.place->position);
+    chunk.put(content_.place->seconds);
+    chunk.end();
+  }
+
   // Write each message under the name of its channel.
   for (const ViewMessage& message : content_.messages) {
     const std::size_t name = std::strlen(message.channel);

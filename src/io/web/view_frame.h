@@ -34,6 +34,12 @@ struct ViewFocus {
 /// camera and in view.
 std::optional<ViewFocus> focus_on(std::span<const Eigen::Vector3d> points, const Intrinsics& camera);
 
+/// Where a frame lies in the log that is played.
+struct LogPlace {
+  std::int64_t position = 0;  ///< from 0
+  double seconds = 0;         ///< since the first frame [s]
+};
+
 /// Everything that the page may show of one frame. Immutable once shared. Costly parts (point cloud, images) are made
 /// on first use, on the thread of the client that needs them and never on a thread that tracks.
 class ViewFrame {
@@ -49,11 +55,13 @@ class ViewFrame {
     std::vector<object_state_t> objects = {};  ///< messages about objects, not encoded, likewise
     std::optional<health_t> health;            ///< counters of the pipeline; none: it is not their time
     std::optional<SE3> T_world_camera;         ///< none: the pose of the camera in the room is unknown
+    std::optional<LogPlace> place = {};        ///< none: no log is played
   };
   explicit ViewFrame(Content content) : content_(std::move(content)) {}
   const Content& content() const { return content_; }
 
-  /// Appends the chunks 'F' (header) and 'L' (messages) to `out`. `now`: time of sending [us since the epoch].
+  /// Appends the chunks 'F' (header), 'T' (place in the log) and 'L' (messages) to `out`. `now`: time of sending [us
+  /// since the epoch].
   void write_states(std::int64_t now, std::vector<std::uint8_t>& out) const;
   /// The chunk 'D': the depth image on a grid of at most kMaxPoints points; empty without images. ViewCloud::hand: only
   /// the part in focus, or all of it if there is no focus.
