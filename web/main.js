@@ -49,7 +49,7 @@ const connection = new Connection({
     if (ended) return showConnection("quiet", "ended");  // the last frame stays
     latest = null;
     showConnection("lost", "no connection");
-    showHands([]);
+    showHands(null);
   },
   onError(text) { recorder.say(text, "lost"); },
   onStatus(message) {
@@ -104,7 +104,7 @@ function loop(now) {
 
 // Shows all texts about the frame that is shown, together, so that they agree.
 function tell() {
-  if (shown && (open || ended)) showHands(shown.states, shown.contacts, shown.grasps, shown.objects);
+  if (shown && (open || ended)) showHands(shown, status && status.drawn, timeline.active);
   if (timeline.active) timeline.show(timeline.log, shown);
   notice(problem());
 }

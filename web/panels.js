@@ -36,10 +36,21 @@ function graspOf(state, grasps) {
          `(${percent(grasp.kind_probability)}), ${opening}.`;
 }
 
-export function showHands(states, contacts = [], grasps = [], objects = []) {
+// Whose skin is drawn, in words; "" if it is that of the tracked hand. `drawn`: of the status; `log`: whether a log is played.
+function skinOf(state, drawn, log) {
+  if (!drawn || !state.has_pose) return "";
+  const name = drawn[state.handedness];
+  if (name !== "") return `Drawn with the skin of ${name}.`;
+  return `${log ? "The log does not hold" : "Trackers do not send"} the person's skin: an average hand is drawn in this ` +
+    "pose and size. With --hand hand.json it is the person's.";
+}
+
+// `frame`: the frame that is shown; null: there is none. `drawn` and `log`: as for skinOf().
+export function showHands(frame, drawn, log) {
   const box = byId("hands");
-  if (states.length === 0) { box.textContent = "Not known."; return; }
-  box.replaceChildren(...states.map((state) => {
+  if (!frame || frame.states.length === 0) { box.textContent = "Not known."; return; }
+  const {contacts, grasps, objects} = frame;
+  box.replaceChildren(...frame.states.map((state) => {
     const status = kStatusNames[state.status] || "?", side = kSideNames[state.handedness];
     const row = element("div", "", {class: "hand"});
     row.append(element("b", `${side[0].toUpperCase()}${side.slice(1)} hand`),
@@ -53,6 +64,8 @@ export function showHands(states, contacts = [], grasps = [], objects = []) {
     if (grasp) row.append(element("span", grasp, {class: "numbers grasp"}));
     const touches = touchesOf(state, contacts, objects);
     if (touches) row.append(element("span", touches, {class: "numbers touches"}));
+    const skin = skinOf(state, drawn, log);
+    if (skin) row.append(element("span", skin, {class: "numbers skin"}));
     return row;
   }));
 }

@@ -80,11 +80,12 @@ TEST(LiveView, SaysThatNobodySends) {
   test::SocketClient client(test::port_of((*server)->url()));
   auto bus = LcmBus::open("memq://");
   ASSERT_TRUE(bus);
-  LiveView live(std::move(*bus), {"DESK_", {}, nullptr}, ShownHands({}), **server, time);
+  LiveView live(std::move(*bus), {"DESK_", {}, nullptr}, ShownHands({}, {"", "anna.json"}), **server, time);
   time.advance(9'000'000);
   live.step(std::chrono::milliseconds(0));
   const auto status = nlohmann::json::parse(client.text().value());
   EXPECT_NE(status["trouble"].get<std::string>().find("DESK_"), std::string::npos);
+  EXPECT_EQ(status["drawn"], nlohmann::json({"", "anna.json"}));
 }
 
 }  // namespace

@@ -155,6 +155,7 @@ class Live(Page):
     def test_a_hand_is_seen_and_the_counters_move(self):
         self.open_with_hand(self.program)
         self.wait_for_hand()
+        self.assertEqual(self.browser.value("document.querySelectorAll('#hands .skin').length"), 0, "its own skin")
         self.wait_for(f"Number({text('rate')}) > 0 && Number({text('latency')}) > 0")
         self.wait_until_more_is_captured()
 
@@ -354,7 +355,7 @@ class Log(Page):
                         ["record", "--source", scene, "--out", take]):
             subprocess.run([BAREHAND, *command], check=True, capture_output=True, timeout=LONG)
         self.program = self.start("view", states, take, "--port", "0")
-        self.take = take
+        self.states, self.take = states, take
 
     def frame(self):
         return int(re.match(r"frame (\d+) of 60", self.browser.value(text("log_time")))[1])
@@ -427,6 +428,15 @@ class Log(Page):
             " const x = Math.min(marks.width - 1, Math.max(0, Math.floor(knob - left)));"
             " return row[4 * x] > row[4 * x + 1]; }); })()")
         self.assertEqual([frame + 1 for frame in range(60) if is_red[frame]], self.lost())
+
+    def test_the_page_says_whose_skin_is_drawn(self):
+        self.browser.open(self.program.url)
+        self.wait_for(f"{text('hands')}.includes('The log does not hold the person')")
+        hand = f"{pathlib.Path(self.take).parent}/anna.json"
+        subprocess.run([BAREHAND, "track", "--source", f"sim:grasp_ball,{SMALL},frames=3", "--no-publish", "--save-hand", hand],
+                       check=True, capture_output=True, timeout=LONG)
+        self.browser.open(self.start("view", self.states, "--port", "0", "--hand", hand).url)
+        self.wait_for(f"{text('hands')}.includes('Drawn with the skin of {hand}.')")
 
     def test_a_log_of_images_alone_says_that_it_holds_no_states(self):
         self.browser.open(self.start("view", self.take, "--port", "0").url)

@@ -22,6 +22,13 @@ TEST(ViewStatus, TellsHowFarAScanIs) {
     "palm_side": 3, "back_side": 4, "bent": 0.25, "to_bend": true, "before": 0.09, "after": 0.1}]})"));
 }
 
+TEST(ViewStatus, TellsWhoseSkinIsDrawn) {
+  ViewState state;
+  EXPECT_TRUE(json::parse(status_json(state))["drawn"].is_null()) << "that of the tracked hand";
+  state.drawn = {"", "anna.json"};
+  EXPECT_EQ(json::parse(status_json(state))["drawn"], json({"", "anna.json"}));
+}
+
 TEST(ViewStatus, TellsTheRoomRowByRow) {
   ViewState state;
   EXPECT_TRUE(json::parse(status_json(state))["T_world_camera"].is_null()) << "not known";

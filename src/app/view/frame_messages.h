@@ -41,15 +41,19 @@ struct ReceivedMessage {
 /// mean adult hand, is scaled to the size of the tracked hand.
 class ShownHands {
  public:
-  /// `profiles` are indexed by Handedness; none may be null.
-  explicit ShownHands(const std::array<std::shared_ptr<const HandProfile>, 2>& profiles)
-      : bases_{std::make_shared<const ViewSkin>(profiles[0]), std::make_shared<const ViewSkin>(profiles[1])} {}
+  /// `profiles` are indexed by Handedness; none may be null. `names`: as in ViewState::drawn.
+  explicit ShownHands(const std::array<std::shared_ptr<const HandProfile>, 2>& profiles,
+                      std::array<std::string, 2> names = {})
+      : bases_{std::make_shared<const ViewSkin>(profiles[0]), std::make_shared<const ViewSkin>(profiles[1])},
+        names_(std::move(names)) {}
   /// Makes the skins of the profiles, which takes tens of milliseconds, so that no frame waits for that later.
   void prepare() const;
   ViewSkinPtr skin_of(const hand_state_t& state);
+  const std::array<std::string, 2>& names() const { return names_; }
 
  private:
   std::array<ViewSkinPtr, 2> bases_;  // of the profiles
+  std::array<std::string, 2> names_;
   std::array<ViewSkinPtr, 2> skins_;
   std::array<double, 2> sizes_{};  // sizes of the skins relative to the profiles
 };

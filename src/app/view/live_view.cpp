@@ -100,6 +100,7 @@ void LiveView::show_gathered() {
 void LiveView::show_status() {
   status_us_ = clock_.steady_us();
   ViewState state{name_, true, "", server_.clients(), health_, {}, options_.T_world_camera};
+  state.drawn = hands_.names();
   state.record = options_.recorder ? options_.recorder->state() : RecorderState{};
   if (status_us_ - frame_us_ >= kNoFramesUs)
     state.trouble = formatted(

@@ -27,13 +27,18 @@ constexpr const char* kPortOption = "--port PORT";
 /// A profile for each side: the one given by the user, or the mean adult hand.
 Result<ShownHands> shown_hands(const std::vector<std::string>& wanted) {
   std::array<std::shared_ptr<const HandProfile>, 2> profiles;
+  std::array<std::string, 2> drawn;
   for (const auto& names : {std::vector<std::string>{"both"}, wanted}) {
     if (names.empty()) continue;
     const auto hands = choose_hands(names, {});
     if (!hands) return tl::unexpected(hands.error());
-    for (const NamedHand& hand : *hands) profiles[static_cast<std::size_t>(hand.profile->handedness)] = hand.profile;
+    for (const NamedHand& hand : *hands) {
+      const auto side = static_cast<std::size_t>(hand.profile->handedness);
+      profiles[side] = hand.profile;
+      drawn[side] = hand.profile->origin == ProfileOrigin::mean ? "" : hand.name;
+    }
   }
-  ShownHands shown(profiles);
+  ShownHands shown(profiles, drawn);
   shown.prepare();
   return shown;
 }
@@ -116,7 +121,9 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
       content.place = {state.position, state.at};
       server.show(std::make_shared<const ViewFrame>(std::move(content)));
     }
-    if (tell) server.show_status(status_json({name_, false, "", server.clients(), {}, state, shown_.T_world_camera}));
+    if (tell)
+      server.show_status(status_json(
+          {name_, false, "", server.clients(), {}, state, shown_.T_world_camera, {}, {}, shown_.hands.names()}));
     lock.lock();
 
     const std::int64_t now_us = clock_.steady_us();

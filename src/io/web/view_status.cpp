@@ -96,7 +96,8 @@ std::string status_json(const ViewState& state) {
            {"log", state.log ? log_json(*state.log) : json()},
            {"T_world_camera", state.T_world_camera ? transform_json(*state.T_world_camera) : json()},
            {"scan", state.scan ? scan_json(*state.scan) : json()},
-           {"record", state.record ? record_json(*state.record) : json()}};
+           {"record", state.record ? record_json(*state.record) : json()},
+           {"drawn", state.drawn ? json(*state.drawn) : json()}};
   return out.dump(-1, ' ', false, json::error_handler_t::replace);  // names of sources need not be UTF-8
 }
 

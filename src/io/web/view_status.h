@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,6 +44,9 @@ struct ViewState {
   std::optional<SE3> T_world_camera = {};    ///< none: the camera's pose is unknown (sensor/camera_placement.h)
   std::optional<ViewScan> scan = {};         ///< none: no hand is being scanned
   std::optional<RecorderState> record = {};  ///< none: there is nothing to record
+  /// Whose skin is drawn, by Handedness: the name of a profile, "" for the average hand. None: that of the tracked
+  /// hand.
+  std::optional<std::array<std::string, 2>> drawn = {};
 };
 
 /// The status message {"type": "status", ...} of docs/view_protocol.md. Unknown parts are null.
