@@ -57,7 +57,7 @@ const Skin& skin() {
 Image<Rgb> draw(const HandEstimate& estimate, const RgbdFrame& frame = grey_frame(),
                 SegmentNames names = SegmentNames::left_out) {
   const DrawnHand hand{estimate, skin()};
-  return draw_overlay(frame, {&hand, 1}, names);
+  return draw_overlay(frame, {&hand, 1}, {}, names);
 }
 
 /// A frame whose depth is `counts` [mm] everywhere.
@@ -182,9 +182,22 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
   RgbdFrame frame = grey_frame();
   frame.colour = {};
   frame.depth.at(10, 10) = 0;
-  const Image<Rgb> sheet = draw_overlay(frame, {});
+  const Image<Rgb> sheet = draw_overlay(frame, {}, {});
   EXPECT_EQ(sheet.at(20, 20), (Rgb{0, 0, 0}));
   EXPECT_GT(sheet.at(100, 100).r, 30);
+}
+
+TEST(SteadyRange, FollowsTheFramesWithinSeconds) {
+  SteadyRange steady;
+  EXPECT_EQ(steady.follow({0.4, 0.6}, 5'000'000).near, 0.4);
+  const ColouredDepths next = steady.follow({1.4, 2.6}, 5'033'000);
+  EXPECT_LT(next.near, 0.5) << "no jump";
+  EXPECT_GT(next.far, 0.6);
+  ColouredDepths range;
+  for (int i = 2; i < 200; ++i) range = steady.follow({1.4, 2.6}, 5'000'000 + 33'000 * i);
+  EXPECT_NEAR(range.near, 1.4, 0.01);
+  EXPECT_NEAR(range.far, 2.6, 0.01);
+  EXPECT_EQ(steady.follow({0.4, 0.6}, 4'000'000).near, 0.4) << "after a jump back in time";
 }
 
 class OverlayFiles : public testing::Test {
@@ -202,6 +215,24 @@ TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_EQ(picture->width(), 1280);
   EXPECT_TRUE(fs::exists(folder_ / "overlay/000012.jpg"));
+}
+
+TEST_F(OverlayFiles, ColoursOfDepthDoNotJumpWhereTheHandIsLost) {
+  // Without a hand, the depths of the scene reach to the wall at the left.
+  RgbdFrame frame = grey_frame();
+  for (int v = 0; v < frame.depth.height(); ++v)
+    for (int u = 0; u < frame.depth.width() / 4; ++u) frame.depth.at(u, v) = 2000;
+  auto writer = OverlayWriter::open(folder_ / "overlay", 30).value();
+  HandEstimate lost = open_hand();
+  lost.status = TrackStatus::lost;
+  for (const auto& hands : {hand_, shared(lost)}) {
+    ASSERT_TRUE(writer.write(frame, hands));
+    ++frame.number;
+    frame.utime += 33'000;
+  }
+  const Rgb tracked = read_colour(folder_ / "overlay/000007.jpg").value().at(640 + 600, 20);
+  const Rgb next = read_colour(folder_ / "overlay/000008.jpg").value().at(640 + 600, 20);
+  EXPECT_EQ(next, tracked);
 }
 
 TEST_F(OverlayFiles, NewPicturesTakeThePlaceOfThoseOfAnEarlierRunAndOfNothingElse) {

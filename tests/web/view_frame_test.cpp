@@ -124,6 +124,20 @@ TEST(ViewFrame, SendsPicturesThatAreNotTooLarge) {
     }
 }
 
+TEST(ViewFrame, GivesADepthTheSameColourWhateverElseIsInView) {
+  const auto colour_beside = [](std::uint16_t depth) {
+    auto image = frame(64, 48);
+    image->depth.reset(64, 48, depth);
+    for (int v = 0; v < 16; ++v)
+      for (int u = 0; u < 16; ++u) image->depth.at(u, v) = 1000;
+    auto some = content(image);
+    some.depths = {0.5, 1.5};
+    const Chunk p = chunks_of(text_of(ViewFrame(std::move(some)).picture(ViewPicture::depth, false))).at(0);
+    return decode_jpeg(std::vector<std::uint8_t>(p.payload.begin(), p.payload.end()), 64, 48).value().at(4, 4);
+  };
+  EXPECT_EQ(colour_beside(700), colour_beside(2000));
+}
+
 TEST(ViewFrame, HasNeitherCloudNorPictureWithoutImages) {
   const ViewFrame view{ViewFrame::Content{}};
   EXPECT_TRUE(view.cloud(ViewCloud::scene).empty());

@@ -92,6 +92,7 @@ void LiveView::show_gathered() {
     if (image != images_.end()) gathered_.push_back(*image);
     ViewFrame::Content content = frame_content(gathered_, hands_, {});
     content.T_world_camera = options_.T_world_camera;
+    if (content.frame) content.depths = depths_.follow(typical_range(*content.frame), content.utime);
     server_.show(std::make_shared<const ViewFrame>(std::move(content)));
   }
   gathered_.clear();

@@ -35,6 +35,7 @@ class LiveView {
   const Options options_;
   const std::string name_;
   ShownHands hands_;
+  SteadyRange depths_;
   ViewServer& server_;
   const Clock& clock_;
   std::vector<ReceivedMessage> gathered_;  // messages of one frame, without its image

@@ -88,6 +88,7 @@ class LogShow {
   LogIndex index_;
   const std::string name_;
   Shown shown_;
+  SteadyRange depths_;
   const Clock& clock_;
   std::mutex mutex_;  // protects the members below
   std::condition_variable changed_;
@@ -119,6 +120,7 @@ void LogShow::run(ViewServer& server, const std::atomic<bool>& stop) {
           frame_content(index_.messages(state.position), shown_.hands, {}, index_.image(state.position));
       content.T_world_camera = shown_.T_world_camera;
       content.place = {state.position, state.at};
+      if (content.frame) content.depths = depths_.follow(typical_range(*content.frame), content.utime);
       server.show(std::make_shared<const ViewFrame>(std::move(content)));
     }
     if (tell)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -30,8 +31,10 @@ Rgb darkened(const Rgb& c) {
 }  // namespace
 
 ColouredDepths typical_range(const RgbdFrame& frame) {
+  constexpr std::size_t kEnough = 5000;                        // pixels for the percentiles
+  const std::size_t step = frame.depth.size() / kEnough | 1u;  // odd, so that the columns differ
   std::vector<std::uint16_t> counts;
-  for (std::size_t i = 0; i < frame.depth.size(); i += 7)  // every seventh pixel is enough for the percentiles
+  for (std::size_t i = 0; i < frame.depth.size(); i += step)
     if (frame.depth[i] > 0) counts.push_back(frame.depth[i]);
   if (counts.empty()) return {};
   const auto at = [&](double fraction) {
@@ -41,6 +44,17 @@ ColouredDepths typical_range(const RgbdFrame& frame) {
   };
   const double near = at(0.02);
   return {near, std::max(at(0.98), near + 0.05)};
+}
+
+ColouredDepths SteadyRange::follow(const ColouredDepths& own, std::int64_t utime) {
+  constexpr double kSeconds = 0.5;  // after which two thirds of a change are followed
+  const double passed = static_cast<double>(utime - utime_) * 1e-6;
+  utime_ = utime;
+  if (!range_ || passed < 0) return range_.emplace(own);
+  const double share = 1 - std::exp(-passed / kSeconds);
+  range_->near += share * (own.near - range_->near);
+  range_->far += share * (own.far - range_->far);
+  return *range_;
 }
 
 Image<Rgb> depth_colours(const RgbdFrame& frame, const ColouredDepths& range) {

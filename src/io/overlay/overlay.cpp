@@ -105,7 +105,10 @@ Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimates& e
     skins_[k].follow(*estimates[k]);
     hands.push_back({*estimates[k], skins_[k].skin});
   }
-  return output_->write(draw_overlay(frame, hands, names_), frame.number);
+  const ColouredDepths scene = typical_range(frame);
+  if (const auto around = depths_around(hands)) around_ = around;
+  const OverlayDepths depths{left_.follow(scene, frame.utime), right_.follow(around_.value_or(scene), frame.utime)};
+  return output_->write(draw_overlay(frame, hands, depths, names_), frame.number);
 }
 
 Result<void> OverlayWriter::finish() { return output_->finish(); }

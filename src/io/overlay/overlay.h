@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,10 @@ class OverlayWriter {
   std::unique_ptr<Output> output_;
   SegmentNames names_;
   std::vector<HandSkin> skins_;  // one for each hand
+
+  /// The depths that are coloured. Without a hand, the right image stays at those around the hands seen last.
+  SteadyRange left_, right_;
+  std::optional<ColouredDepths> around_;  // the hands seen last
 };
 
 }  // namespace barehand

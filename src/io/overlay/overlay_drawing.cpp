@@ -9,7 +9,6 @@
 
 #include "core/format.h"
 #include "hand/status_name.h"
-#include "io/overlay/colour_map.h"
 #include "io/overlay/finger_colours.h"
 #include "io/overlay/overlay_view.h"
 #include "io/overlay/segment_labels.h"
@@ -19,7 +18,7 @@ namespace barehand {
 namespace {
 
 constexpr int kSmallWidth = 480;       // frames narrower than this are enlarged [px]
-constexpr double kDepthAround = 0.12;  // the colours show depths up to this far in front of and behind the hand [m]
+constexpr double kDepthAround = 0.15;  // the colours show depths up to this far in front of and behind the hand [m]
 const cv::Scalar kDistalBlue(40, 80, 255), kWhite(255, 255, 255);
 
 /// Draws the bones and the distal ends of a hand's segments onto an image, with thin lines that hide little of the
@@ -61,8 +60,7 @@ class BoneDrawing {
   const HandEstimate& estimate_;
 };
 
-Image<Rgb> grey_depth_picture(const RgbdFrame& frame) {
-  const ColouredDepths range = typical_range(frame);
+Image<Rgb> grey_depth_picture(const RgbdFrame& frame, const ColouredDepths& range) {
   Image<Rgb> picture(frame.depth.width(), frame.depth.height());
   for (std::size_t i = 0; i < picture.size(); ++i) {
     if (frame.depth[i] == 0) continue;
@@ -71,16 +69,6 @@ Image<Rgb> grey_depth_picture(const RgbdFrame& frame) {
     picture[i] = {grey, grey, grey};
   }
   return picture;
-}
-
-ColouredDepths shown_range(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
-  ColouredDepths range{INFINITY, -INFINITY};
-  for (const DrawnHand& hand : hands) {
-    if (!hand.estimate.has_pose()) continue;
-    const double z = hand.estimate.segments[segment_of(2, 0)].T_camera_segment.t.z();
-    range = {std::min(range.near, z - kDepthAround), std::max(range.far, z + kDepthAround)};
-  }
-  return range.near < range.far ? range : typical_range(frame);
 }
 
 struct Caption {
@@ -107,15 +95,27 @@ cv::Mat view(Image<Rgb>& image) { return {image.height(), image.width(), CV_8UC3
 
 }  // namespace
 
+std::optional<ColouredDepths> depths_around(std::span<const DrawnHand> hands) {
+  std::optional<ColouredDepths> range;
+  for (const DrawnHand& hand : hands) {
+    if (!hand.estimate.has_pose()) continue;
+    const double z = hand.estimate.segments[segment_of(2, 0)].T_camera_segment.t.z();
+    const ColouredDepths own{z - kDepthAround, z + kDepthAround};
+    range = range ? ColouredDepths{std::min(range->near, own.near), std::max(range->far, own.far)} : own;
+  }
+  return range;
+}
+
 int overlay_scale(const Intrinsics& camera) { return camera.width < kSmallWidth ? 2 : 1; }
 
-Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands, SegmentNames names) {
+Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands, const OverlayDepths& depths,
+                        SegmentNames names) {
   // Prepare the output image, its two halves and the skin that is painted over both.
   const int scale = overlay_scale(frame.camera);
   const Intrinsics camera = enlarged(frame.camera, scale);
   Image<Rgb> sheet(2 * camera.width, camera.height + kCaptionHeight);
-  Image<Rgb> colour = frame.colour.empty() ? grey_depth_picture(frame) : frame.colour;
-  Image<Rgb> depth = depth_colours(frame, shown_range(frame, hands));
+  Image<Rgb> colour = frame.colour.empty() ? grey_depth_picture(frame, depths.left) : frame.colour;
+  Image<Rgb> depth = depth_colours(frame, depths.right);
   const SkinLayer skin = render_skin(frame, scale, hands);
 
   // Draw colour on the left and depth on the right.

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "io/overlay/colour_map.h"
 #include "io/recording/jpeg_codec.h"
 #include "io/web/view_bytes.h"
 
@@ -160,7 +159,7 @@ std::span<const std::uint8_t> ViewFrame::picture(ViewPicture kind, bool large) c
     if (kind == ViewPicture::colour)
       made.bytes = picture_chunk(frame.colour, kind, width);
     else
-      made.bytes = picture_chunk(depth_colours(frame, typical_range(frame)), kind, width);
+      made.bytes = picture_chunk(depth_colours(frame, content_.depths), kind, width);
   });
   return made.bytes;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/frame_memory.h"
+#include "io/overlay/colour_map.h"
 #include "io/ros/ros_hand.h"
 #include "io/web/view_request.h"
 #include "io/web/view_skin.h"
@@ -56,6 +57,7 @@ class ViewFrame {
     std::optional<health_t> health;            ///< counters of the pipeline; none: it is not their time
     std::optional<SE3> T_world_camera;         ///< none: the pose of the camera in the room is unknown
     std::optional<LogPlace> place = {};        ///< none: no log is played
+    ColouredDepths depths = {};                ///< range of the picture of depth
   };
   explicit ViewFrame(Content content) : content_(std::move(content)) {}
   const Content& content() const { return content_; }

@@ -97,6 +97,7 @@ ViewFramePtr ViewSink::make_frame(const TrackedFrame& tracked, const FrameMessag
   for (const object_state_t& object : messages.objects) content.messages.push_back(encoded("OBJECT_STATE", object));
   content.objects.assign(messages.objects.begin(), messages.objects.end());
   content.focus = focus_on(places, tracked.frame->camera);
+  content.depths = depths_.follow(typical_range(*tracked.frame), content.utime);
   content.T_world_camera = input_.T_world_camera;
   if (clock_.steady_us() - status_us_ >= kStatusPeriodUs)  // as often as in the status of the page
     content.health = health_message(input_.health(), clock_.utime(), input_.source);

@@ -52,7 +52,8 @@ class ViewSink : public Sink {
   ViewServer& server_;
   const Input input_;
   const Clock& clock_;
-  std::array<ViewSkinPtr, 2> skins_;           // skins of the last profiles, indexed by Handedness
+  std::array<ViewSkinPtr, 2> skins_;  // skins of the last profiles, indexed by Handedness
+  SteadyRange depths_;
   std::int64_t frame_us_ = 0, status_us_ = 0;  // times of the last frame and of the last status; steady clock
   bool any_frame_ = false;
   bool shown_recording_ = false;  // whether the last status reported a recording in progress
