@@ -200,6 +200,26 @@ class Live(Page):
         self.browser.value("document.getElementById('tools').scrollLeft = 10000")
         self.assertEqual(self.browser.value(outside % "#screenshot"), [])
 
+    def test_a_phone_on_its_side_shows_view_and_panels_beside_each_other(self):
+        self.open_with_hand(self.program)
+        for width, height in ((844, 390), (667, 375)):
+            self.browser.size(width, height, phone=True)
+            self.wait_for(f"innerWidth === {width} && innerHeight === {height}")
+            box = "document.querySelector('%s').getBoundingClientRect()"
+            scene, tools, legend, panels = (self.browser.value(f"{box % which}.toJSON()")
+                                            for which in ("#scene", "#tools", "#legend", "aside"))
+            self.assertGreater(scene["width"], 0.55 * width)
+            self.assertGreater(scene["height"], 0.85 * height)
+            self.assertLessEqual(scene["right"], panels["left"])
+            self.assertLessEqual(panels["right"], width)
+            self.assertLessEqual(panels["bottom"], height)
+
+            # The buttons are one row at the bottom, whose last one can be scrolled to; the hand has the space above.
+            self.assertLess(tools["height"], 45)
+            self.assertLess(legend["bottom"], 0.25 * height)
+            self.browser.value("document.getElementById('tools').scrollLeft = 10000")
+            self.assertLessEqual(self.browser.value(f"{box % '#screenshot'}.right"), scene["right"])
+
     def test_a_small_screen_has_all_buttons_in_one_row(self):
         self.open_with_hand(self.program)
         for width in (1200, 1280, 1440):
