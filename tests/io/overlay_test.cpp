@@ -57,7 +57,7 @@ const Skin& skin() {
 Image<Rgb> draw(const HandEstimate& estimate, const RgbdFrame& frame = grey_frame(),
                 SegmentNames names = SegmentNames::left_out) {
   const DrawnHand hand{estimate, skin()};
-  return draw_overlay(frame, {&hand, 1}, {}, names);
+  return draw_overlay(frame, 0, {&hand, 1}, {}, names);
 }
 
 /// A frame whose depth is `counts` [mm] everywhere.
@@ -182,7 +182,7 @@ TEST(Overlay, DepthOnlyFramesHaveAPictureOfTheirDepth) {
   RgbdFrame frame = grey_frame();
   frame.colour = {};
   frame.depth.at(10, 10) = 0;
-  const Image<Rgb> sheet = draw_overlay(frame, {}, {});
+  const Image<Rgb> sheet = draw_overlay(frame, 0, {}, {});
   EXPECT_EQ(sheet.at(20, 20), (Rgb{0, 0, 0}));
   EXPECT_GT(sheet.at(100, 100).r, 30);
 }
@@ -215,6 +215,16 @@ TEST_F(OverlayFiles, FolderHoldsOnePicturePerFrameNumber) {
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_EQ(picture->width(), 1280);
   EXPECT_TRUE(fs::exists(folder_ / "overlay/000012.jpg"));
+}
+
+TEST_F(OverlayFiles, TimeCountsFromTheFirstPictureAsAPlayerDoes) {
+  for (const std::int64_t begin_us : {0, 77'000'000}) {
+    auto writer = OverlayWriter::open(folder_ / std::to_string(begin_us), 30).value();
+    RgbdFrame frame = grey_frame();
+    frame.utime = begin_us;
+    ASSERT_TRUE(writer.write(frame, hand_));
+  }
+  EXPECT_EQ(test::read_text(folder_ / "77000000/000007.jpg"), test::read_text(folder_ / "0/000007.jpg"));
 }
 
 TEST_F(OverlayFiles, ColoursOfDepthDoNotJumpWhereTheHandIsLost) {

@@ -108,7 +108,10 @@ Result<void> OverlayWriter::write(const RgbdFrame& frame, const HandEstimates& e
   const ColouredDepths scene = typical_range(frame);
   if (const auto around = depths_around(hands)) around_ = around;
   const OverlayDepths depths{left_.follow(scene, frame.utime), right_.follow(around_.value_or(scene), frame.utime)};
-  return output_->write(draw_overlay(frame, hands, depths, names_), frame.number);
+
+  if (!first_us_) first_us_ = frame.utime;
+  const double seconds = static_cast<double>(frame.utime - *first_us_) * 1e-6;
+  return output_->write(draw_overlay(frame, seconds, hands, depths, names_), frame.number);
 }
 
 Result<void> OverlayWriter::finish() { return output_->finish(); }

@@ -45,7 +45,8 @@ class OverlayWriter {
 
   std::unique_ptr<Output> output_;
   SegmentNames names_;
-  std::vector<HandSkin> skins_;  // one for each hand
+  std::vector<HandSkin> skins_;           // one for each hand
+  std::optional<std::int64_t> first_us_;  // time of the first frame
 
   /// The depths that are coloured. Without a hand, the right image stays at those around the hands seen last.
   SteadyRange left_, right_;

@@ -76,11 +76,9 @@ struct Caption {
   cv::Scalar colour;
 };
 
-Caption caption_of(const RgbdFrame& frame, std::span<const DrawnHand> hands) {
+Caption caption_of(const RgbdFrame& frame, double seconds, std::span<const DrawnHand> hands) {
   const std::array<cv::Scalar, 4> kColour = {cv::Scalar(170, 170, 170), {90, 220, 90}, {255, 180, 60}, {255, 80, 80}};
-  Caption caption{
-      formatted("frame %lld   %.3f s", static_cast<long long>(frame.number), static_cast<double>(frame.utime) * 1e-6),
-      kColour[0]};
+  Caption caption{formatted("frame %lld   %.3f s", static_cast<long long>(frame.number), seconds), kColour[0]};
   for (const auto& [e, skin] : hands) {
     caption.text += "   " + std::string(to_string(e.status));
     if (e.has_pose() || hands.size() > 1) caption.text += "   " + std::string(to_string(e.handedness)) + " hand";
@@ -108,8 +106,8 @@ std::optional<ColouredDepths> depths_around(std::span<const DrawnHand> hands) {
 
 int overlay_scale(const Intrinsics& camera) { return camera.width < kSmallWidth ? 2 : 1; }
 
-Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands, const OverlayDepths& depths,
-                        SegmentNames names) {
+Image<Rgb> draw_overlay(const RgbdFrame& frame, double seconds, std::span<const DrawnHand> hands,
+                        const OverlayDepths& depths, SegmentNames names) {
   // Prepare the output image, its two halves and the skin that is painted over both.
   const int scale = overlay_scale(frame.camera);
   const Intrinsics camera = enlarged(frame.camera, scale);
@@ -133,7 +131,7 @@ Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands
   }
 
   // Write the caption below both halves.
-  const Caption caption = caption_of(frame, hands);
+  const Caption caption = caption_of(frame, seconds, hands);
   cv::putText(view(sheet), caption.text, {8, camera.height + 19}, cv::FONT_HERSHEY_SIMPLEX, 0.5, caption.colour, 1,
               cv::LINE_AA);
   return sheet;

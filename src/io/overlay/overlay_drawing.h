@@ -37,8 +37,9 @@ std::optional<ColouredDepths> depths_around(std::span<const DrawnHand> hands);
 /// Draws the colour and the depth image side by side, and the hands over both: the translucent, shaded skin in one
 /// colour for each finger (paint_skin), then thin bones and the distal ends of the segments as blue dots (paper Fig.
 /// 8), hollow if the segment is inferred. Names of segments are written over the colour image only. The caption below
-/// states frame number, time and the status of each hand. Without a pose, only images and caption are drawn.
-Image<Rgb> draw_overlay(const RgbdFrame& frame, std::span<const DrawnHand> hands, const OverlayDepths& depths,
-                        SegmentNames names = SegmentNames::left_out);
+/// states frame number, `seconds` since the first frame and the status of each hand. Without a pose, only images and
+/// caption are drawn.
+Image<Rgb> draw_overlay(const RgbdFrame& frame, double seconds, std::span<const DrawnHand> hands,
+                        const OverlayDepths& depths, SegmentNames names = SegmentNames::left_out);
 
 }  // namespace barehand
