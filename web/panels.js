@@ -42,7 +42,7 @@ function skinOf(state, drawn, log) {
   const name = drawn[state.handedness];
   if (name !== "") return `Drawn with the skin of ${name}.`;
   return `${log ? "The log does not hold" : "Trackers do not send"} the person's skin: an average hand is drawn in this ` +
-    "pose and size. With --hand hand.json it is the person's.";
+    "pose, with its lengths and thickness. With --hand hand.json it is the person's.";
 }
 
 // `frame`: the frame that is shown; null: there is none. `drawn` and `log`: as for skinOf().

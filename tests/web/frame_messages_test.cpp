@@ -91,7 +91,7 @@ TEST(FrameMessages, AreLeftOutWhereDamaged) {
 
 TEST(ShownHands, AreAsLargeAsTheTrackedHand) {
   ShownHands hands = mean_hands();
-  const ViewSkinPtr skin = hands.skin_of(messages_at(1, TrackStatus::tracking, 1.2).state);
+  const ViewSkinPtr skin = hands.skin_of(messages_at(1, TrackStatus::tracking, 1.2).state, nullptr);
   ASSERT_TRUE(skin);
   EXPECT_NEAR(skin->profile()->hand_length(), 1.2 * test::adult_hand()->hand_length(), 1e-3);
 
@@ -107,6 +107,36 @@ TEST(ShownHands, AreAsLargeAsTheTrackedHand) {
   std::memcpy(&vertices, mean.data() + 8, sizeof vertices);
   for (std::size_t i = 0; i < 6 * vertices; ++i) ASSERT_NEAR(number(large, i), 1.2 * number(mean, i), 1e-3) << i;
   for (std::size_t i = 6 * vertices; i < 9 * vertices; ++i) ASSERT_EQ(number(large, i), number(mean, i)) << i;
+}
+
+/// The z coordinates of the skin's vertices reach as far as its bone, and the y coordinates as far as it is thick.
+TEST(ShownHands, HaveTheLengthsAndTheThicknessOfTheTrackedHand) {
+  HandProfile longer = *test::adult_hand();
+  const int bone = segment_of(2, 2);
+  longer.segments[bone].distal *= 1.3;
+  for (double& radius : longer.segments[bone].radius) radius *= 1.1;  // which is also the end of the bone before
+  const HandMessages made = HandMessageMaker({}).process(estimate_of(longer, {}, 1, TrackStatus::tracking));
+  ShownHands hands = mean_hands();
+  const Skin mean = ViewSkin(test::adult_hand()).mesh(), shown = hands.skin_of(made.state, &made.joints)->mesh();
+  ASSERT_EQ(shown.vertices.size(), mean.vertices.size());
+  for (std::size_t i = 0; i < mean.vertices.size(); ++i) {
+    const SkinVertex &v = mean.vertices[i], &w = shown.vertices[i];
+    ASSERT_NEAR(w.in_a.z(), (v.a == bone ? 1.3f : 1) * v.in_a.z(), 1e-5);
+    if (v.a == bone - 1) continue;
+    ASSERT_NEAR(w.in_a.y(), (v.a == bone ? 1.1f : 1) * v.in_a.y(), 1e-5);
+  }
+}
+
+TEST(ShownHands, KeepTheFormOfAPersonsOwnSkin) {
+  HandProfile own = *test::adult_hand(), thicker = own;
+  own.origin = ProfileOrigin::measured;
+  for (SegmentProfile& segment : thicker.segments) segment.radius[0] *= 1.3;
+  const HandMessages made = HandMessageMaker({}).process(estimate_of(thicker, {}, 1, TrackStatus::tracking));
+  const auto profile = std::make_shared<const HandProfile>(own);
+  const Skin skin = ViewSkin(profile).mesh(),
+             shown = ShownHands({profile, profile}).skin_of(made.state, &made.joints)->mesh();
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i)
+    ASSERT_TRUE(shown.vertices[i].in_a.isApprox(skin.vertices[i].in_a, 1e-4f)) << i;
 }
 
 TEST(LogIndex, PutsStatesInOrderAndFindsLostOnes) {

@@ -1,25 +1,46 @@
 // Combines the LCM messages of one frame for the live page.
 #include "app/view/frame_messages.h"
 
-#include <cmath>
 #include <map>
 #include <optional>
 
 #include "drivers/lcm/frame_message.h"
 #include "drivers/lcm/layouts.h"
+#include "stages/publish/openxr_joints.h"
 
 namespace barehand {
 namespace {
 
-/// Size of the tracked hand relative to the profile, by the summed lengths of the segments.
-double relative_size(const hand_state_t& state, const HandProfile& profile) {
-  double tracked = 0, own = 0;
+/// Sizes of the tracked hand relative to the profile: the lengths of the bones, the distance of the knuckles, and the
+/// radii of the joints.
+SegmentSizes sizes_of(const hand_state_t& state, const hand_joints_t* joints, const HandProfile& profile) {
+  const auto begin = [&](int s) { return Eigen::Vector3d(state.segments[s].position); };
+  Eigen::Array<double, 1, kSegmentCount> length;
+  for (int s = 0; s < kSegmentCount; ++s)
+    length[s] = (Eigen::Vector3d(state.segments[s].distal) - begin(s)).norm() / profile.segments[s].distal.norm();
+
+  // A person's own skin keeps its form: the tracked hand may be another profile's.
+  if (profile.origin != ProfileOrigin::mean) return SegmentSizes::Constant(static_cast<float>(length.mean()));
+
+  // Compare the radii of the joints; the first is in the middle of the palm.
+  Eigen::Array<double, 1, kOpenXrJointCount> radius;
+  radius = length.mean();
+  const auto own = openxr_joints(profile, {});
+  for (int j = 0; joints && j < kOpenXrJointCount; ++j) radius[j] = joints->radius[j] / own[j].radius;
+
+  // Segments are as wide as thick, but for the palm, which is as wide as its knuckles are far apart.
+  SegmentSizes sizes;
   for (int s = 0; s < kSegmentCount; ++s) {
-    const segment_state_t& segment = state.segments[s];
-    tracked += (Eigen::Vector3d(segment.distal) - Eigen::Vector3d(segment.position)).norm();
-    own += profile.segments[s].distal.norm();
+    const int joint = s == kPalm ? 0 : 2 + 5 * finger_of(s) + (s - 1) % 3, next = s == kPalm ? 0 : joint + 1;
+    const Eigen::Vector3d at_begin(radius[joint], radius[joint], length[s]),
+        at_end(radius[next], radius[next], length[s]);
+    sizes.col(s) << at_begin.cast<float>(), at_end.cast<float>();
   }
-  return tracked / own;
+  constexpr int kFirst = segment_of(1, 0), kLast = segment_of(4, 0);
+  const SegmentProfile &first = profile.segments[kFirst], &last = profile.segments[kLast];
+  sizes(0, kPalm) = sizes(3, kPalm) = static_cast<float>((begin(kFirst) - begin(kLast)).norm() /
+                                                         (first.T_hand_segment.t - last.T_hand_segment.t).norm());
+  return sizes;
 }
 
 /// The messages of one hand received so far.
@@ -54,14 +75,15 @@ void ShownHands::prepare() const {
   for (const ViewSkinPtr& base : bases_) base->mesh();
 }
 
-ViewSkinPtr ShownHands::skin_of(const hand_state_t& state) {
-  constexpr double kSameSize = 0.02;
+ViewSkinPtr ShownHands::skin_of(const hand_state_t& state, const hand_joints_t* joints) {
+  constexpr float kSameSize = 0.02f;
   const std::size_t side = state.handedness == hand_state_t::LEFT ? 0 : 1;
-  const double size = state.has_pose ? relative_size(state, *bases_[side]->profile()) : sizes_[side];
-  if (!(size > 0.3 && size < 3)) return skins_[side];
-  if (std::abs(size - sizes_[side]) > kSameSize * size) {
-    sizes_[side] = size;
-    skins_[side] = std::make_shared<const ViewSkin>(bases_[side], size);
+  if (!state.has_pose) return skins_[side];
+  const SegmentSizes sizes = sizes_of(state, joints, *bases_[side]->profile());
+  if (!((sizes.array() > 0.3f).all() && (sizes.array() < 3).all())) return skins_[side];
+  if (((sizes - sizes_[side]).array().abs() > kSameSize * sizes.array()).any()) {
+    sizes_[side] = sizes;
+    skins_[side] = std::make_shared<const ViewSkin>(bases_[side], sizes);
   }
   return skins_[side];
 }
@@ -81,7 +103,6 @@ ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, Show
       if (!state) continue;
       content.utime = state->utime;
       content.number = state->frame_number;
-      content.skins[state->handedness == hand_state_t::LEFT ? 0 : 1] = hands.skin_of(*state);
       for (const segment_state_t& segment : state->segments) places.push_back(Eigen::Vector3d(segment.position));
       add(content, "HAND_STATE", message);
       parts[state->hand_id].state = *state;
@@ -115,9 +136,13 @@ ViewFrame::Content frame_content(std::span<const ReceivedMessage> messages, Show
     }
   }
 
-  for (const auto& [id, hand] : parts)
+  for (const auto& [id, hand] : parts) {
+    if (hand.state)
+      content.skins[hand.state->handedness == hand_state_t::LEFT ? 0 : 1] =
+          hands.skin_of(*hand.state, hand.joints ? &*hand.joints : nullptr);
     if (hand.state && hand.glove && hand.joints)
       content.hands.push_back({*hand.state, *hand.glove, *hand.joints, hand.contact, hand.grasp});
+  }
 
   // Without states, the time and the number of the frame are those of the image.
   if (content.frame && content.utime == 0) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "barehand/hand_joints_t.hpp"
 #include "barehand/hand_state_t.hpp"
 #include "hand/profile.h"
 #include "io/web/view_frame.h"
@@ -37,25 +38,28 @@ struct ReceivedMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Skins to draw the hands in states with. States carry no skin; the skin of a profile that the user gave, or of the
-/// mean adult hand, is scaled to the size of the tracked hand.
+/// Skins to draw the hands in states with. States carry no skin; the skin of a profile that the user gave is scaled to
+/// the size of the tracked hand, and that of the mean adult hand gets the lengths and the thickness in its messages.
 class ShownHands {
  public:
   /// `profiles` are indexed by Handedness; none may be null. `names`: as in ViewState::drawn.
   explicit ShownHands(const std::array<std::shared_ptr<const HandProfile>, 2>& profiles,
                       std::array<std::string, 2> names = {})
       : bases_{std::make_shared<const ViewSkin>(profiles[0]), std::make_shared<const ViewSkin>(profiles[1])},
-        names_(std::move(names)) {}
+        names_(std::move(names)) {
+    sizes_.fill(SegmentSizes::Zero());
+  }
   /// Makes the skins of the profiles, which takes tens of milliseconds, so that no frame waits for that later.
   void prepare() const;
-  ViewSkinPtr skin_of(const hand_state_t& state);
+  /// `joints`: of the same hand and frame; null: the hand is as thick as its bones are long.
+  ViewSkinPtr skin_of(const hand_state_t& state, const hand_joints_t* joints);
   const std::array<std::string, 2>& names() const { return names_; }
 
  private:
   std::array<ViewSkinPtr, 2> bases_;  // of the profiles
   std::array<std::string, 2> names_;
   std::array<ViewSkinPtr, 2> skins_;
-  std::array<double, 2> sizes_{};  // sizes of the skins relative to the profiles
+  std::array<SegmentSizes, 2> sizes_;  // of the skins
 };
 
 /// Collects what the messages of one frame contain; damaged messages are left out. `foreign`: intrinsics of frames

@@ -1,6 +1,8 @@
 // Encodes the skin of a hand profile for the live page.
 #include "io/web/view_skin.h"
 
+#include <algorithm>
+
 #include "io/web/view_bytes.h"
 
 namespace barehand {
@@ -15,6 +17,20 @@ void put_vector(ChunkWriter& out, const Eigen::Vector3f& v) {
 Skin coarse_skin(const HandProfile& profile) {
   Skin skin = make_skin(profile, kCell);
   return profile.scanned_skin ? coarsened(skin, kCell) : skin;
+}
+
+/// The skin of `profile` with segments of other sizes, which change evenly from one end of a bone to the other.
+Skin resized(const Skin& skin, const HandProfile& profile, const SegmentSizes& sizes) {
+  const auto resize = [&](Eigen::Vector3f& point, int s) {
+    const float along = std::clamp(point.z() / static_cast<float>(profile.segments[s].distal.z()), 0.0f, 1.0f);
+    point.array() *= (1 - along) * sizes.col(s).head<3>().array() + along * sizes.col(s).tail<3>().array();
+  };
+  Skin other = skin;
+  for (SkinVertex& v : other.vertices) {
+    resize(v.in_a, v.a);
+    resize(v.in_b, v.b);
+  }
+  return other;
 }
 
 std::vector<std::uint8_t> skin_chunk(Handedness side, const Skin& skin) {
@@ -43,7 +59,8 @@ std::vector<std::uint8_t> skin_chunk(Handedness side, const Skin& skin) {
 }  // namespace
 
 const Skin& ViewSkin::mesh() const {
-  std::call_once(meshed_, [this] { mesh_ = base_ ? scaled(base_->mesh(), size_) : coarse_skin(*profile_); });
+  std::call_once(
+      meshed_, [this] { mesh_ = base_ ? resized(base_->mesh(), *base_->profile(), sizes_) : coarse_skin(*profile_); });
   return mesh_;
 }
 
