@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,9 +16,9 @@ constexpr std::string_view to_string(TrackStatus status) {
 }
 
 /// The states of all hands, such as "tracking, lost".
-inline std::string status_list(const HandEstimates& hands) {
+inline std::string status_list(std::span<const TrackStatus> hands) {
   std::string list;
-  for (const HandEstimatePtr& hand : hands) list.append(list.empty() ? "" : ", ").append(to_string(hand->status));
+  for (const TrackStatus status : hands) list.append(list.empty() ? "" : ", ").append(to_string(status));
   return list;
 }
 

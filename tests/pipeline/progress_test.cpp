@@ -4,7 +4,9 @@
 
 #include <sstream>
 
+#include "pipeline/sinks/hand_message_makers.h"
 #include "pipeline/summary.h"
+#include "support/adult_hand.h"
 
 namespace barehand {
 namespace {
@@ -12,9 +14,12 @@ namespace {
 using ::testing::HasSubstr;
 
 TrackedFrame tracked(std::int64_t number, TrackStatus status) {
+  static const auto profile = test::adult_hand();
   auto estimate = std::make_shared<HandEstimate>();
   estimate->number = number;
+  estimate->utime = number * 100'000;
   estimate->status = status;
+  estimate->profile = profile;
   return {nullptr, {}, {estimate}};
 }
 
@@ -48,11 +53,40 @@ TEST(Progress, CountsFramesByStatus) {
   ManualClock clock;
   std::ostringstream out;
   ProgressSink progress(out, {}, clock);
-  for (const auto status : {TrackStatus::searching, TrackStatus::tracking, TrackStatus::tracking, TrackStatus::lost})
+  for (const auto status : {TrackStatus::searching, TrackStatus::lost, TrackStatus::tracking, TrackStatus::tracking})
     EXPECT_TRUE(progress.consume(tracked(0, status)));
   EXPECT_EQ(progress.counts()[0].of(TrackStatus::tracking), 2);
   EXPECT_EQ(progress.counts()[0].of(TrackStatus::holding), 0);
   EXPECT_EQ(progress.counts()[0].of(TrackStatus::lost), 1);
+}
+
+TEST(Progress, CountsAHandAsItIsPublished) {
+  // A hand is tracked, and then out of sight for longer than it is held; another one fits badly and is found again.
+  ManualClock clock;
+  std::ostringstream out;
+  Slot<PublishParams> pending;
+  ProgressSink progress(out, {false, std::nullopt, false, {}, &pending}, clock);
+  HandMessageMakers published({}, nullptr);
+  std::array<std::int64_t, 4> logged{};
+  using enum TrackStatus;
+  const std::vector<TrackStatus> first = {searching, tracking, holding, holding, holding, holding, holding, lost, lost},
+                                 second = {tracking, lost, lost, tracking, tracking, tracking, lost, lost, searching};
+  for (std::size_t i = 0; i < first.size() + second.size(); ++i) {
+    const TrackedFrame frame =
+        tracked(static_cast<std::int64_t>(i), i < first.size() ? first[i] : second[i - first.size()]);
+    EXPECT_TRUE(progress.consume(frame));
+    ++logged[static_cast<std::size_t>(published.process(frame).hands[0].state.status)];
+  }
+  EXPECT_EQ(progress.counts()[0].frames, logged);
+  EXPECT_EQ(logged[static_cast<std::size_t>(holding)], 4 + 4) << "at 0.5 s the hand is not held any more";
+
+  // A hand that a new configuration does not hold is lost at once.
+  PublishParams no_hold;
+  no_hold.hold_time = 0;
+  EXPECT_TRUE(progress.consume(tracked(20, tracking)));
+  pending.put(no_hold);
+  EXPECT_TRUE(progress.consume(tracked(21, lost)));
+  EXPECT_EQ(progress.statuses(), std::vector{lost});
 }
 
 TEST(Summary, TellsFramesStatusAndTimes) {

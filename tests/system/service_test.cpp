@@ -43,7 +43,8 @@ class Watchdog : public ::testing::Test {
   ManualClock clock_;
   ServiceManager manager_{clock_};
   PipelineHeartbeat heartbeat_;
-  ServiceSink sink_{manager_, [this] { return heartbeat_; }, [] { return PipelineHealth{}; }, clock_};
+  ServiceSink sink_{manager_, [this] { return heartbeat_; }, [] { return PipelineHealth{}; },
+                    [] { return std::vector<TrackStatus>{}; }, clock_};
 };
 
 TEST_F(Watchdog, IsFedWhileFramesPass) {

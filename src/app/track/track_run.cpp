@@ -273,7 +273,8 @@ Step TrackRun::open_outputs() {
   // Add the sinks that report to the service manager and to the terminal.
   if (service_.present())
     sinks_.push_back(std::make_unique<ServiceSink>(
-        service_, [this] { return pipeline_->heartbeat(); }, [this] { return pipeline_->health(); }, clock_));
+        service_, [this] { return pipeline_->heartbeat(); }, [this] { return pipeline_->health(); },
+        [this] { return progress_->statuses(); }, clock_));
   if (options_.health)
     sinks_.push_back(std::make_unique<HealthSink>(
         std::cerr, [this] { return pipeline_->health(); }, static_cast<std::int64_t>(config_.run.health_period * 1e6),
@@ -282,7 +283,9 @@ Step TrackRun::open_outputs() {
   // Show the progress last, when all other sinks have consumed the frame.
   auto progress = std::make_unique<ProgressSink>(
       std::cerr,
-      ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present()}, clock_);
+      ProgressSink::Options{isatty(STDERR_FILENO) == 1 && !options_.health, input_.frames, service_.present(),
+                            config_.publish, &pending_.progress},
+      clock_);
   progress_ = progress.get();
   sinks_.push_back(std::move(progress));
   return {};

@@ -11,16 +11,17 @@ constexpr std::int64_t kSilenceUs = 2'000'000;  // after this time without a fra
 }  // namespace
 
 ServiceSink::ServiceSink(ServiceManager& manager, std::function<PipelineHeartbeat()> heartbeat,
-                         std::function<PipelineHealth()> health, const Clock& clock)
+                         std::function<PipelineHealth()> health, std::function<std::vector<TrackStatus>()> statuses,
+                         const Clock& clock)
     : manager_(manager),
       heartbeat_(std::move(heartbeat)),
       health_(std::move(health)),
+      statuses_(std::move(statuses)),
       clock_(clock),
       frame_us_(clock.steady_us()),
       status_us_(clock.steady_us()) {}
 
-Result<void> ServiceSink::consume(const TrackedFrame& tracked) {
-  hands_ = tracked.estimates;
+Result<void> ServiceSink::consume(const TrackedFrame&) {
   frame_us_ = clock_.steady_us();
   return idle();
 }
@@ -42,7 +43,8 @@ void ServiceSink::feed_watchdog() {
 void ServiceSink::update_status() {
   const std::int64_t now_us = clock_.steady_us();
   const PipelineHealth health = health_();
-  std::string text = "hand: " + (hands_.empty() ? "searching" : status_list(hands_));
+  const std::vector<TrackStatus> hands = statuses_();
+  std::string text = "hand: " + (hands.empty() ? "searching" : status_list(hands));
   if (now_us - frame_us_ >= kSilenceUs)
     text = formatted("no frames for %lld s", static_cast<long long>((now_us - frame_us_) / 1'000'000));
   const double rate =

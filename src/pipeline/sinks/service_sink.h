@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "pipeline/pipeline.h"
 #include "pipeline/service_manager.h"
@@ -13,9 +14,10 @@ namespace barehand {
 /// that hangs therefore ends the feeding, and systemd restarts the service.
 class ServiceSink : public Sink {
  public:
-  /// `manager` and `clock` must outlive the sink.
+  /// `statuses`: those of the hands, as they are published. `manager` and `clock` must outlive the sink.
   ServiceSink(ServiceManager& manager, std::function<PipelineHeartbeat()> heartbeat,
-              std::function<PipelineHealth()> health, const Clock& clock);
+              std::function<PipelineHealth()> health, std::function<std::vector<TrackStatus>()> statuses,
+              const Clock& clock);
 
   std::string name() const override { return "service"; }
   Result<void> consume(const TrackedFrame& tracked) override;
@@ -28,9 +30,9 @@ class ServiceSink : public Sink {
   ServiceManager& manager_;
   const std::function<PipelineHeartbeat()> heartbeat_;
   const std::function<PipelineHealth()> health_;
+  const std::function<std::vector<TrackStatus>()> statuses_;
   const Clock& clock_;
   PipelineHeartbeat fed_at_;  // counters when the watchdog was fed last
-  HandEstimates hands_;       // estimates of the last frame
   std::int64_t frame_us_,     // time of the last frame; steady clock
       status_us_,             // time of the last status line; steady clock
       status_published_ = 0;  // number of frames published when the last status line was sent
