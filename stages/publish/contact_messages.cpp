@@ -43,13 +43,13 @@ void fill_frame(Message& out, const HandEstimate& estimate) {
 
 }  // namespace
 
-contact_state_t contact_message(const HandEstimate& estimate, const HandContacts& contacts,
+contact_state_t contact_message(const HandEstimate& estimate, TrackStatus published, const HandContacts& contacts,
                                 const FrameVector<ObjectEstimate>& objects) {
   contact_state_t out{};
   fill_frame(out, estimate);
   out.hand_id = estimate.hand_id;
   out.handedness = estimate.handedness == Handedness::left ? hand_state_t::LEFT : hand_state_t::RIGHT;
-  out.status = static_cast<std::int8_t>(estimate.status);
+  out.status = static_cast<std::int8_t>(published);
   for (int s = 0; s < kSegmentCount; ++s) {
     out.object[s] = segment_message(contacts.object[s], find_object(objects, contacts.object[s].partner));
     out.own[s] = segment_message(contacts.own[s], nullptr);

@@ -9,9 +9,9 @@
 
 namespace barehand {
 
-/// The message about what one hand of a frame touches. `objects`: those of the frame, in whose frames contacts are
-/// expressed as well.
-contact_state_t contact_message(const HandEstimate& estimate, const HandContacts& contacts,
+/// The message about what one hand of a frame touches. `published`: the status in its hand_state_t; `objects`: those of
+/// the frame, in whose frames contacts are expressed as well.
+contact_state_t contact_message(const HandEstimate& estimate, TrackStatus published, const HandContacts& contacts,
                                 const FrameVector<ObjectEstimate>& objects);
 
 /// The message about an object in the frame of `estimate`.

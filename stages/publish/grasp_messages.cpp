@@ -70,14 +70,14 @@ void fill_known(grasp_state_t& out, const HandGrasp& grasp) {
 
 }  // namespace
 
-grasp_state_t grasp_message(const HandEstimate& estimate, const HandGrasp& grasp) {
+grasp_state_t grasp_message(const HandEstimate& estimate, TrackStatus published, const HandGrasp& grasp) {
   grasp_state_t out{};
   out.utime = estimate.utime;
   out.frame_number = estimate.number;
   out.sensor = estimate.sensor;
   out.hand_id = estimate.hand_id;
   out.handedness = estimate.handedness == Handedness::left ? hand_state_t::LEFT : hand_state_t::RIGHT;
-  out.status = static_cast<std::int8_t>(estimate.status);
+  out.status = static_cast<std::int8_t>(published);
   if (grasp.known)
     fill_known(out, grasp);
   else

@@ -6,7 +6,7 @@
 
 namespace barehand {
 
-/// The message about how one hand grasps.
-grasp_state_t grasp_message(const HandEstimate& estimate, const HandGrasp& grasp);
+/// The message about how one hand grasps. `published`: the status in its hand_state_t.
+grasp_state_t grasp_message(const HandEstimate& estimate, TrackStatus published, const HandGrasp& grasp);
 
 }  // namespace barehand

@@ -16,7 +16,7 @@ TEST(ContactMessages, StateContactsInTheFramesOfCameraAndObject) {
   touch = {ContactState::touching, true, 0.75, -0.001, 0.002, {0.1, 0.2, 0.4}, {0, 0, -1}, 7, -1};
   contacts.own[15] = {ContactState::near, false, 0.1, 0.008, 0.002, {0, 0, 0.5}, {1, 0, 0}, 5, 3};
 
-  const contact_state_t message = contact_message(estimate, contacts, objects);
+  const contact_state_t message = contact_message(estimate, TrackStatus::tracking, contacts, objects);
   EXPECT_EQ(message.utime, 5'000'000);
   EXPECT_EQ(message.frame_number, 5000);
   EXPECT_EQ(message.hand_id, 5);

@@ -21,7 +21,7 @@ TEST(GraspMessages, SumOverTheClassesThatShareAProperty) {
   grasp.probabilities[grasp_state_t::PINCH] = 0.3;    // precision, pad, abducted, 2
   grasp.probabilities[grasp_state_t::LATERAL] = 0.1;  // intermediate, side, adducted, 2
   grasp.probabilities[grasp_state_t::TRIPOD] = 0.2;   // precision, pad, abducted, 2-3
-  const grasp_state_t m = grasp_message(estimate(), grasp);
+  const grasp_state_t m = grasp_message(estimate(), TrackStatus::tracking, grasp);
   EXPECT_EQ(m.utime, 7'000'000);
   EXPECT_EQ(m.sensor, "test");
   EXPECT_EQ(m.hand_id, 5);
@@ -48,14 +48,14 @@ TEST(GraspMessages, WithoutAGraspNothingOpposesTheThumb) {
   grasp.known = true;
   grasp.probabilities[0] = 0.9;
   grasp.probabilities[grasp_state_t::PINCH] = 0.1;
-  const grasp_state_t m = grasp_message(estimate(), grasp);
+  const grasp_state_t m = grasp_message(estimate(), TrackStatus::tracking, grasp);
   EXPECT_EQ(m.grasp, grasp_state_t::NONE);
   for (const std::int8_t state : {m.kind, m.opposition, m.thumb, m.first_finger, m.last_finger}) EXPECT_EQ(state, 0);
   EXPECT_EQ(m.kind_probability, 0.9);
 }
 
 TEST(GraspMessages, OfAHandThatIsNotTrackedEverythingIsUnknown) {
-  const grasp_state_t m = grasp_message(estimate(), {});
+  const grasp_state_t m = grasp_message(estimate(), TrackStatus::tracking, {});
   for (const std::int8_t state : {m.grasp, m.kind, m.opposition, m.thumb, m.first_finger, m.last_finger})
     EXPECT_EQ(state, grasp_state_t::UNKNOWN);
   for (const double number :

@@ -19,16 +19,19 @@ FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   messages_.resize(estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) messages_[k] = makers_[k].process(*estimates[k]);
 
+  // All messages about a hand state the same status.
+  const auto published = [&](std::size_t k) { return static_cast<TrackStatus>(messages_[k].state.status); };
+
   // Add how they grasp and what they touch.
   if (tracked.grasps)
     for (std::size_t k = 0; k < estimates.size(); ++k)
-      messages_[k].grasp = grasp_message(*estimates[k], (*tracked.grasps)[k]);
+      messages_[k].grasp = grasp_message(*estimates[k], published(k), (*tracked.grasps)[k]);
 
   // Make the messages of contacts and objects.
   objects_.clear();
   if (const FrameContacts* contacts = tracked.contacts.get()) {
     for (std::size_t k = 0; k < estimates.size(); ++k)
-      messages_[k].contact = contact_message(*estimates[k], contacts->hands[k], contacts->objects);
+      messages_[k].contact = contact_message(*estimates[k], published(k), contacts->hands[k], contacts->objects);
     for (const ObjectEstimate& object : contacts->objects) objects_.push_back(object_message(*estimates[0], object));
   }
   return {messages_, objects_};

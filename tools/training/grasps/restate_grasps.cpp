@@ -35,7 +35,7 @@ Result<void> restate(char** argv) {
     const auto estimate = std::make_shared<const HandEstimate>(estimate_of(*state));
     const auto grasps = stage.process({estimate});
     if (!grasps) return tl::unexpected(grasps.error());
-    const auto message = encode_message(grasp_message(*estimate, (**grasps)[0]));
+    const auto message = encode_message(grasp_message(*estimate, estimate->status, (**grasps)[0]));
     if (auto sent = (*out)->send("GRASP_STATE", message, state->utime); !sent) return sent;
   }
   return (*out)->finish();
