@@ -61,6 +61,15 @@ TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
     EXPECT_FALSE(parse_view_request(text)) << text;
 }
 
+TEST(ViewRequest, NamesAKeyThatItDoesNotKnowAndThoseThatItKnows) {
+  EXPECT_EQ(parse_view_request(R"({"type": "want", "clowd": "hand"})").error().message(),
+            "message of a client: unknown key \"clowd\" (besides the type there may be cloud, picture, large, rate, "
+            "window)");
+  for (const char* text : {R"({"type": "ack", "frame": 7})", R"({"type": "seek", "frame": 7})",
+                           R"({"type": "record", "on": true, "value": 1})"})
+    EXPECT_FALSE(parse_view_request(text)) << text;
+}
+
 TEST(ViewRequest, SurvivesDeepNesting) { EXPECT_FALSE(parse_view_request(std::string(60000, '['))); }
 
 }  // namespace

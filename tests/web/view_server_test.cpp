@@ -245,6 +245,23 @@ TEST_F(ViewServerTest, SaysWhereNothingCanBeRecorded) {
   EXPECT_NE(answer["text"].get<std::string>().find("nothing can be recorded"), std::string::npos);
 }
 
+TEST_F(ViewServerTest, SaysWhereThereIsNoLogToPlay) {
+  server_.reset();
+  serve({{"127.0.0.1", 0}, {}, {}, nullptr});
+  SocketClient client(port());
+  for (const char* command : {R"({"type": "play"})", R"({"type": "seek", "value": 12})"}) {
+    client.send(command);
+    const auto answer = nlohmann::json::parse(client.text().value());
+    EXPECT_EQ(answer["type"], "error");
+    EXPECT_NE(answer["text"].get<std::string>().find("no log is played here"), std::string::npos) << answer;
+  }
+
+  // The connection goes on.
+  client.send(R"({"type": "want"})");
+  show(1);
+  EXPECT_EQ(next_number(client), 1);
+}
+
 class RecordingServerTest : public ViewServerTest {
  protected:
   void SetUp() override {

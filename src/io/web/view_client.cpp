@@ -43,7 +43,7 @@ void ViewClient::execute(std::string_view text) {
 /// Executes commands that concern the program as a whole.
 Result<void> ViewClient::follow(const ViewRequest& request) {
   if (const auto* command = std::get_if<RecordCommand>(&request)) return handlers_.record(*command);
-  if (const auto* command = std::get_if<PlayerCommand>(&request)) handlers_.play(*command);
+  if (const auto* command = std::get_if<PlayerCommand>(&request)) return handlers_.play(*command);
   return {};
 }
 

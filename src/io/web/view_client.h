@@ -17,7 +17,7 @@ class ViewClient : public FrameClient {
  public:
   /// Called on threads of the server.
   struct Handlers {
-    std::function<void(const PlayerCommand&)> play;
+    std::function<Result<void>(const PlayerCommand&)> play;
     std::function<Result<void>(const RecordCommand&)> record;
     OnGone gone;
   };

@@ -1,6 +1,7 @@
 // Parses the requests of the live page.
 #include "io/web/view_request.h"
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <optional>
@@ -13,6 +14,18 @@ namespace {
 
 using json_fields::Object;
 constexpr const char* kWhere = "message of a client";
+
+/// Refuses keys that do not belong to a message of this type, since a misspelled wish would be ignored.
+Result<void> check_keys(const Object& message, std::initializer_list<const char*> known) {
+  for (const auto& [key, value] : message.json.items()) {
+    if (key == "type" || std::ranges::find(known, key) != known.end()) continue;
+    std::string list;
+    for (const char* name : known) list.append(list.empty() ? "" : ", ").append(name);
+    return fail("unknown key " + json_fields::shown(key), kWhere,
+                list.empty() ? "give nothing but the type" : "besides the type there may be " + list);
+  }
+  return {};
+}
 
 /// The position of `message[key]` among `names`; 0 if there is no such key.
 Result<int> choice_of(const Object& message, const char* key, std::initializer_list<const char*> names) {
@@ -29,6 +42,8 @@ Result<int> choice_of(const Object& message, const char* key, std::initializer_l
 }
 
 Result<ViewRequest> settings_of(const Object& message) {
+  if (const auto good = check_keys(message, {"cloud", "picture", "large", "rate", "window"}); !good)
+    return tl::unexpected(good.error());
   ViewSettings settings;
 
   // Read what shall be shown.
@@ -55,9 +70,9 @@ Result<ViewRequest> settings_of(const Object& message) {
 }
 
 Result<ViewRequest> record_of(const Object& message) {
-  if (message.json.size() > 2)
-    return fail("a command to record holds nothing but \"on\"", kWhere, "send {\"type\": \"record\", \"on\": true}");
-  return message.boolean("on").map([](bool on) -> ViewRequest { return RecordCommand{on}; });
+  return check_keys(message, {"on"}).and_then([&] { return message.boolean("on"); }).map([](bool on) -> ViewRequest {
+    return RecordCommand{on};
+  });
 }
 
 std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
@@ -77,13 +92,15 @@ Result<ViewRequest> request_of(const Object& message) {
   const auto type = message.text("type");
   if (!type) return tl::unexpected(type.error());
   if (*type == "want") return settings_of(message);
-  if (*type == "ack") return ViewAcknowledge{};
+  if (*type == "ack") return check_keys(message, {}).map([]() -> ViewRequest { return ViewAcknowledge{}; });
   if (*type == "record") return record_of(message);
   const auto kind = player_kind(*type);
   if (!kind) return fail("unknown type", kWhere, "give want, ack, record, play, pause, seek, step, speed or lost");
-  return message.number_or("value", 0, -1e9, 1e9).map([&](double value) -> ViewRequest {
-    return PlayerCommand{*kind, value};
-  });
+  return check_keys(message, {"value"})
+      .and_then([&] { return message.number_or("value", 0, -1e9, 1e9); })
+      .map([&](double value) -> ViewRequest {
+        return PlayerCommand{*kind, value};
+      });
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ using ViewRequest = std::variant<ViewSettings, ViewAcknowledge, PlayerCommand, R
 
 /// Parses what a client sends: {"type": "want", "cloud": "hand", "picture": "colour", "rate": 30, "window": 2},
 /// {"type": "ack"}, {"type": "seek", "value": 12}, {"type": "record", "on": true} and so on. Errors: invalid JSON, an
-/// unknown type, a value out of range, further keys in a command to record.
+/// unknown type, an unknown key, a value out of range.
 Result<ViewRequest> parse_view_request(std::string_view text);
 
 }  // namespace barehand

@@ -11,7 +11,6 @@ Result<std::unique_ptr<ViewServer>> ViewServer::start(Options options, const Clo
   // Read the files of the page, and make the server that the handlers refer to.
   auto page = read_web_page();
   if (!page) return tl::unexpected(page.error());
-  if (!options.on_command) options.on_command = [](const PlayerCommand&) {};
   std::unique_ptr<ViewServer> server(new ViewServer(options, clock));
 
   // Set the address and the files.
@@ -58,12 +57,19 @@ ViewServer::~ViewServer() {
 
 std::unique_ptr<WebPeer> ViewServer::connect(WebSocket socket) {
   ViewClient::Handlers handlers;
-  handlers.play = on_command_;
+  handlers.play = [this](const PlayerCommand& command) { return play(command); };
   handlers.record = [this, number = ++last_client_](const RecordCommand& command) { return record(command, number); };
   handlers.gone = [this](FrameClient& gone) { pages_.forget(gone); };
   auto client = std::make_unique<ViewClient>(socket, clock_, std::move(handlers));
   pages_.add(*client);
   return client;
+}
+
+/// Hands a command for the log on. The error is sent to the client that gave the command.
+Result<void> ViewServer::play(const PlayerCommand& command) {
+  if (!on_command_) return fail("no log is played here", "view", "play a log with barehand view LOG to move in it");
+  on_command_(command);
+  return {};
 }
 
 /// Starts or stops a recording. The error is sent to the client that gave the command.

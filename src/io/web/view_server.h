@@ -57,6 +57,7 @@ class ViewServer {
   ViewServer(const Options& options, const Clock& clock)
       : on_command_(options.on_command), recorder_(options.recorder), clock_(clock) {}
   std::unique_ptr<WebPeer> connect(WebSocket socket);
+  Result<void> play(const PlayerCommand& command);
   Result<void> record(const RecordCommand& command, int client);
 
   const std::function<void(const PlayerCommand&)> on_command_;
