@@ -103,11 +103,15 @@ TEST(WebServer, LetsGoOfWhoeverIsToGo) {
   EXPECT_TRUE(client.is_let_go());
 }
 
-TEST(WebServer, LetsGoOfClientsThatSendTooMuch) {
+TEST(WebServer, LetsGoOfClientsThatSendTooMuchAndSaysWhy) {
   const auto server = serve();
   SocketClient client(server->port());
-  client.send(std::string(100'000, 'x'));
+  EXPECT_EQ(client.text(), "hello");
+  client.send(std::string(64 << 10, 'x'));
+  EXPECT_EQ(client.text()->size(), 64u << 10) << "as much as is allowed";
+  client.send(std::string((64 << 10) + 1, 'x'));
   EXPECT_TRUE(client.is_let_go());
+  EXPECT_EQ(client.farewell(), std::pair(1009, std::string("A message may have 64 KiB at most.")));
 }
 
 TEST(WebServer, SurvivesDamagedFrames) {

@@ -91,7 +91,7 @@ class WebServer::Impl {
   bool is_allowed(const mg_connection* connection) const;
   bool admit(const mg_connection* connection);
   void ready(mg_connection* connection);
-  static bool receive(const mg_connection* connection, int bits, std::string_view data);
+  static bool receive(mg_connection* connection, int bits, std::string_view data);
   void closed(const mg_connection* connection);
 
   static int on_request(mg_connection* connection, void* self) { return static_cast<Impl*>(self)->answer(connection); }
@@ -268,7 +268,7 @@ void WebServer::Impl::ready(mg_connection* connection) {
   known.peer->start();
 }
 
-bool WebServer::Impl::receive(const mg_connection* connection, int bits, std::string_view data) {
+bool WebServer::Impl::receive(mg_connection* connection, int bits, std::string_view data) {
   WebConnection* known = connection_of(connection);
   const int opcode = bits & 0xf;
   const bool last = (bits & 0x80) != 0;
@@ -276,7 +276,10 @@ bool WebServer::Impl::receive(const mg_connection* connection, int bits, std::st
   known->is_read = true;
   if (opcode > kClose) return true;  // civetweb handles ping and pong
   if (opcode != kContinuation) known->message.clear();
-  if (known->message.size() + data.size() > kLongestMessage) return false;
+  if (known->message.size() + data.size() > kLongestMessage) {
+    WebSocket(connection).ask_to_close({Farewell::kTooLong, "A message may have 64 KiB at most."});
+    return false;
+  }
   known->message.append(data);
   return !last || known->peer->receive(known->message);
 }
