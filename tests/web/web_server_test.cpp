@@ -114,6 +114,18 @@ TEST(WebServer, LetsGoOfClientsThatSendTooMuchAndSaysWhy) {
   EXPECT_EQ(client.farewell(), std::pair(1009, std::string("A message may have 64 KiB at most.")));
 }
 
+TEST(WebServer, RefusesFramesWithReservedBits) {
+  const auto server = serve();
+  const std::string told = std::string("\x03\xea") + "A frame has reserved bits";  // 1002: protocol error
+  for (const char bit : {'\x40', '\x20', '\x10'}) {
+    RawClient client(server->port());
+    client.send("GET /live HTTP/1.1\r\n" + upgrade("Host: localhost\r\n") + "\r\n");
+    ASSERT_EQ(status_of(client.read(false)), 101);
+    client.send(static_cast<char>('\x81' | bit) + std::string("\x82\0\0\0\0hi", 7));
+    EXPECT_NE(client.read().find(told), std::string::npos);
+  }
+}
+
 TEST(WebServer, SurvivesDamagedFrames) {
   const auto server = serve();
   // Lengths that are not there, no mask, control frames that are too long, reserved opcodes.

@@ -28,6 +28,7 @@ constexpr const char* kForeign =
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr std::size_t kLongestKey = 24;            // size of a Sec-WebSocket-Key: 16 bytes in Base64 (RFC 6455)
 constexpr int kContinuation = 0, kClose = 8;       // WebSocket opcodes
+constexpr int kReservedBits = 0x70;                // RSV1 to RSV3 in the first byte of a frame (RFC 6455)
 
 std::string_view header(const mg_connection* connection, const char* name) {
   const char* value = mg_get_header(connection, name);
@@ -41,6 +42,12 @@ const char* chosen_protocol(const mg_connection* connection) {
 
 WebConnection* connection_of(const mg_connection* connection) {
   return static_cast<WebConnection*>(mg_get_user_connection_data(connection));
+}
+
+/// Tells a client that breaks the rules why its connection ends. Returns false.
+bool dismiss(mg_connection* connection, const Farewell& farewell) {
+  WebSocket(connection).ask_to_close(farewell);
+  return false;
 }
 
 /// The header that lets a page of an allowed origin read the response; is_allowed() has checked the origin before.
@@ -274,12 +281,13 @@ bool WebServer::Impl::receive(mg_connection* connection, int bits, std::string_v
   const bool last = (bits & 0x80) != 0;
   if (!known || opcode == kClose) return false;
   known->is_read = true;
+  if (bits & kReservedBits)
+    return dismiss(connection,
+                   {Farewell::kProtocolError, "A frame has reserved bits, and no extension was agreed on."});
   if (opcode > kClose) return true;  // civetweb handles ping and pong
   if (opcode != kContinuation) known->message.clear();
-  if (known->message.size() + data.size() > kLongestMessage) {
-    WebSocket(connection).ask_to_close({Farewell::kTooLong, "A message may have 64 KiB at most."});
-    return false;
-  }
+  if (known->message.size() + data.size() > kLongestMessage)
+    return dismiss(connection, {Farewell::kTooLong, "A message may have 64 KiB at most."});
   known->message.append(data);
   return !last || known->peer->receive(known->message);
 }

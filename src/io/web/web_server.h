@@ -22,6 +22,7 @@ namespace barehand {
 struct Farewell {
   static constexpr int kDone = 1000;             ///< nothing more will be sent, so the client should not connect again
   static constexpr int kStopped = 1001;          ///< the program stops and may be started again
+  static constexpr int kProtocolError = 1002;    ///< the client breaks the rules of the WebSocket protocol
   static constexpr int kTooLong = 1009;          ///< the client has sent a message that is too long
   static constexpr int kTryAgainLater = 1013;    ///< too many clients are connected now
   int code = kStopped;                           ///< close code of the WebSocket protocol (RFC 6455)
