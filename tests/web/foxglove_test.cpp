@@ -209,10 +209,13 @@ class FoxgloveServer : public Foxglove {};
 INSTANTIATE_TEST_SUITE_P(All, FoxgloveServer, testing::Values(""));
 
 TEST_P(FoxgloveServer, OtherProtocolsAndOriginsAreRefused) {
-  for (const std::string protocol : {"", "Sec-WebSocket-Protocol: mqtt\r\n"}) {
-    test::RawClient client(port());
-    client.send("GET / HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n" + protocol) + "\r\n");
-    EXPECT_EQ(test::status_of(client.read(false)), 404) << protocol;
+  const std::string mqtt = "Sec-WebSocket-Protocol: mqtt\r\n", own = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n";
+  for (const auto& [path, protocol] :
+       {std::pair("/", std::string()), std::pair("/", mqtt), std::pair("/live", mqtt), std::pair("/live", own)}) {
+    const std::string answer = test::answer_of(port(), path, test::upgrade("Host: localhost\r\n" + protocol));
+    EXPECT_EQ(test::status_of(answer), 404) << path << protocol;
+    EXPECT_THAT(answer, HasSubstr("The WebSocket at /live has no subprotocol. Those of the one at / are: "
+                                  "foxglove.sdk.v1, foxglove.websocket.v1."));
   }
   test::RawClient foreign(port());
   foreign.send("GET / HTTP/1.1\r\n" +

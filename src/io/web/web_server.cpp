@@ -96,19 +96,19 @@ class WebServer::Impl {
   static void send_error(mg_connection* connection, int status, const char* text);
   static bool refuse(const mg_connection* connection, int status, const std::string& text);
   bool is_allowed(const mg_connection* connection) const;
-  bool admit(const mg_connection* connection);
+  bool admit(const mg_connection* connection, bool speaks_it);
+  std::string spoken() const;
   void ready(mg_connection* connection);
   static bool receive(mg_connection* connection, int bits, std::string_view data);
   void closed(const mg_connection* connection);
 
   static int on_request(mg_connection* connection, void* self) { return static_cast<Impl*>(self)->answer(connection); }
   static int on_connect(const mg_connection* connection, void* self) {
-    return static_cast<Impl*>(self)->admit(connection) ? 0 : 1;
+    // Without a list of subprotocols, civetweb chooses one that the client names, whichever it is.
+    return static_cast<Impl*>(self)->admit(connection, chosen_protocol(connection) == nullptr) ? 0 : 1;
   }
   static int on_connect_protocol(const mg_connection* connection, void* self) {
-    if (chosen_protocol(connection)) return on_connect(connection, self);
-    refuse(connection, 404, "There is no WebSocket here that speaks such a protocol.");
-    return 1;
+    return static_cast<Impl*>(self)->admit(connection, chosen_protocol(connection) != nullptr) ? 0 : 1;
   }
   static void on_ready(mg_connection* connection, void* self) { static_cast<Impl*>(self)->ready(connection); }
   static int on_data(mg_connection* connection, int bits, char* data, std::size_t size, void*) {
@@ -242,8 +242,18 @@ bool WebServer::Impl::refuse(const mg_connection* connection, int status, const 
   return false;
 }
 
-bool WebServer::Impl::admit(const mg_connection* connection) {
+/// What the server's WebSockets speak, for a client that asked for something else.
+std::string WebServer::Impl::spoken() const {
+  std::string list;
+  for (const std::string& name : options_.protocols) list.append(list.empty() ? "" : ", ").append(name);
+  return "The WebSocket at " + options_.socket_path + " has no subprotocol." +
+         (options_.connect_protocol ? " Those of the one at / are: " + list + "." : "");
+}
+
+/// Decides whether a client gets its WebSocket. `speaks_it`: it asked for what is spoken at its path.
+bool WebServer::Impl::admit(const mg_connection* connection, bool speaks_it) {
   if (!is_allowed(connection)) return refuse(connection, 403, kForeign);
+  if (!speaks_it) return refuse(connection, 404, spoken());
   // civetweb fails to answer a longer key, and does not report that the connection has ended.
   if (header(connection, "Sec-WebSocket-Key").size() > kLongestKey)
     return refuse(connection, 400, "The key of the WebSocket is too long.");
