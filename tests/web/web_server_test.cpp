@@ -141,6 +141,34 @@ TEST(WebServer, SurvivesDamagedFrames) {
   EXPECT_EQ(next.text(), "hello");
 }
 
+TEST(WebServer, NamesTheVersionOfWebSocketsThatItSpeaks) {
+  const auto server = serve();
+  for (const char* version : {"Sec-WebSocket-Version: 8\r\n", ""}) {
+    const std::string answer = answer_of(server->port(), "/live",
+                                         "Host: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+                                         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
+                                             std::string(version));
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 426 Upgrade Required\r\n")) << answer;
+    EXPECT_NE(answer.find("\r\nSec-WebSocket-Version: 13\r\n"), std::string::npos) << answer;
+  }
+}
+
+TEST(WebServer, AnswersRequestsForWebSocketsThatCannotBe) {
+  const auto server = serve();
+  const std::string keyless = "Host: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
+  EXPECT_EQ(status_of(answer_of(server->port(), "/live", keyless)), 400);
+  EXPECT_EQ(status_of(answer_of(server->port(), "/other", upgrade("Host: localhost\r\n"))), 404);
+}
+
+TEST(WebServer, AnswersARequestForTheHeadersAloneWithoutABody) {
+  const auto server = serve();
+  RawClient client(server->port());
+  client.send("HEAD /other HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  const std::string answer = client.read();
+  EXPECT_EQ(status_of(answer), 404);
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << answer;
+}
+
 /// Asks for a WebSocket.
 std::string request_for_a_socket() {
   std::string request = "GET /live HTTP/1.1\r\n";

@@ -93,7 +93,6 @@ class WebServer::Impl {
   void stop();
   /// Answers an HTTP request.
   int answer(mg_connection* connection) const;
-  static void send_error(mg_connection* connection, int status, const char* text);
   static bool refuse(const mg_connection* connection, int status, const std::string& text);
   bool is_allowed(const mg_connection* connection) const;
   bool admit(const mg_connection* connection, bool speaks_it);
@@ -156,6 +155,11 @@ Result<int> WebServer::Impl::start() {
   // Start to listen on the port.
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
+  // civetweb itself refuses what is damaged, and WebSockets of other versions and at other paths.
+  callbacks.http_error = [](mg_connection* connection, int status, const char* text) {
+    refuse(connection, status, text);
+    return 0;
+  };
   context_ = mg_start(&callbacks, this, settings);
   if (!context_)
     return fail(
@@ -196,10 +200,6 @@ bool WebServer::Impl::is_allowed(const mg_connection* connection) const {
   return is_own_host(host) && is_allowed_origin(header(connection, "Origin"), host, options_.allowed_origins);
 }
 
-void WebServer::Impl::send_error(mg_connection* connection, int status, const char* text) {
-  mg_send_http_error(connection, status, "%s", text);
-}
-
 Result<WebFile> WebServer::Impl::file_of(const mg_connection* connection) const {
   const std::string path = mg_get_request_info(connection)->local_uri;
   if (const auto file = options_.files.find(path == "/" ? "/index.html" : path); file != options_.files.end())
@@ -213,11 +213,11 @@ int WebServer::Impl::answer(mg_connection* connection) const {
 
   // Refuse requests that do not come from an allowed page or are not for one of the files.
   if (!is_allowed(connection))
-    send_error(connection, 403, kForeign);
+    refuse(connection, 403, kForeign);
   else if (method != "GET" && method != "HEAD")
-    send_error(connection, 405, "Files can be read only.");
+    refuse(connection, 405, "Files can be read only.");
   else if (const auto file = file_of(connection); !file)
-    send_error(connection, 404, file.error().message().c_str());
+    refuse(connection, 404, file.error().message());
 
   // Send the file, with headers that keep out scripts and connections of other origins.
   else {
@@ -232,13 +232,20 @@ int WebServer::Impl::answer(mg_connection* connection) const {
   return 1;  // the request has been handled, whatever the status
 }
 
-/// Answers a request for a WebSocket with an HTTP error: civetweb itself closes the connection without a word, and its
-/// function for errors sends nothing here. Returns false.
+/// Answers with an HTTP error. civetweb's own function for it sends no status line to a client that asks for a
+/// WebSocket. Returns false.
 bool WebServer::Impl::refuse(const mg_connection* connection, int status, const std::string& text) {
+  constexpr int kUpgradeRequired = 426;
+  const char* method = mg_get_request_info(connection)->request_method;  // null if the request is damaged
+  const bool head = method && std::string_view(method) == "HEAD";
   mg_printf(const_cast<mg_connection*>(connection),  // constant only because civetweb declares its handlers so
             "HTTP/1.1 %d %s\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: %zu\r\n"
-            "Connection: close\r\n\r\n%s",
-            status, mg_get_response_code_text(connection, status), text.size(), text.c_str());
+            "Cache-Control: no-cache\r\n%s\r\n%s",
+            status, mg_get_response_code_text(connection, status), text.size(),
+            status == kUpgradeRequired
+                ? "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nConnection: Upgrade, close\r\n"
+                : "Connection: close\r\n",
+            head ? "" : text.c_str());
   return false;
 }
 
