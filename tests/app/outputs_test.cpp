@@ -1,6 +1,7 @@
 #include "app/shared/outputs.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -145,6 +146,25 @@ TEST_F(Outputs, WhatExistsIsReplacedOnlyIfAllowed) {
   test::write_text(folder_ / "set/000012.jpg", "x");
   EXPECT_THAT(complaint({}, folder_ / "set", Kind::pictures, false), HasSubstr("contains images"));
   EXPECT_EQ(complaint({}, folder_ / "set", Kind::pictures), "");
+}
+
+TEST_F(Outputs, AMistypedEndingIsRefusedButNoFolder) {
+  const auto complaint = [&](const std::string& path, Kind kind = Kind::recording, bool known = false) {
+    const auto checked = check_ending({"--out", path, kind}, known, ".lcmlog or .mcap");
+    return checked ? "" : checked.error().message();
+  };
+  EXPECT_EQ(complaint("a/x.mca"),
+            "--out a/x.mca: ends in .mca, which is not written here (give a name that ends in .lcmlog or .mcap, or "
+            "a/x.mca/ for a folder of this name)");
+  EXPECT_THAT(complaint("x.foo", Kind::file), testing::EndsWith("(give a name that ends in .lcmlog or .mcap)"));
+  EXPECT_EQ(complaint("x.mcap", Kind::file, true), "");
+  fs::create_directory(folder_ / "take.old");
+  for (const std::string& folder : {std::string("take"), std::string("../take"), std::string(".take"),
+                                    std::string("take.mca/"), std::string("take.2"), std::string("2026.11.28"),
+                                    std::string("take.with_both_hands"), std::string(), folder_ / "take.old"})
+    EXPECT_EQ(complaint(folder), "") << folder;
+  ASSERT_EQ(mkfifo((folder_ / "pipe.foo").c_str(), 0600), 0);
+  EXPECT_EQ(complaint(folder_ / "pipe.foo", Kind::file), "") << "its reader knows what it reads";
 }
 
 }  // namespace

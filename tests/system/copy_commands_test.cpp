@@ -165,10 +165,28 @@ TEST_F(CopyCommands, IntrinsicsComeFromTheConfigurationUnlessTheyAreGiven) {
 TEST_F(CopyCommands, OniFilesAreReadButNotWritten) {
   const Outcome written = barehand({"convert", recording(), folder_ / "b.oni"});
   EXPECT_EQ(written.exit_code, 2);
-  EXPECT_THAT(written.output, HasSubstr(".oni files are not"));
+  EXPECT_THAT(written.output, HasSubstr("ends in .oni, which is not written"));
   const Outcome read = barehand({"convert", "a.oni", folder_ / "b"});
   EXPECT_EQ(read.exit_code, 2);
   EXPECT_THAT(read.output, HasSubstr("a.oni: no such file"));
+}
+
+TEST_F(CopyCommands, AMistypedEndingMakesNeitherFileNorFolder) {
+  const std::string in = recording();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"convert", in, folder_ / "x.foo"},
+        {"record", "--source", "folder:" + in, "--out", folder_ / "x.foo"},
+        {"sim", "fist,frames=1", "--out", folder_ / "x.foo"},
+        {"track", "--source", "folder:" + in, "--no-publish", "--mcap", folder_ / "x.foo"},
+        {"track", "--source", "folder:" + in, "--no-publish", "--states-log", folder_ / "x.foo"},
+        {"track", "--source", "folder:" + in, "--no-publish", "--overlay", folder_ / "x.foo"}}) {
+    const Outcome outcome = barehand(command);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("ends in .foo, which is not written here (give a name that ends in ."));
+    EXPECT_FALSE(fs::exists(folder_ / "x.foo")) << outcome.output;
+  }
+  EXPECT_EQ(barehand({"convert", in, folder_ / "x.foo/"}).exit_code, 0);
+  EXPECT_EQ(FolderSource::open(folder_ / "x.foo").value()->remaining(), 3);
 }
 
 TEST_F(CopyCommands, AForeignFileIsRefusedClearly) {

@@ -181,7 +181,7 @@ tl::expected<ExperimentRow, TrackFailure> ExperimentRun::measure(const std::stri
   if (!options_.hand.empty()) options.hands = {options_.hand};
   if (!options_.search_start) options.init = recording(sequence) + "/start_pose.json";
   options.result = options_.out + "/results/" + name + ".csv";
-  options.overlay = options_.out + "/snapshots/" + name;
+  options.overlay = options_.out + "/snapshots/" + name + "/";  // a folder, although the name looks like that of a file
   options.overlay_every = static_cast<int>((frames + kSnapshots - 1) / kSnapshots);
   options.threads = options_.threads;
   options.no_publish = true;

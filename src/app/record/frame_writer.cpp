@@ -94,13 +94,10 @@ class FolderFrameWriter : public FrameWriter {
 }  // namespace
 
 bool is_log_path(const std::string& path) { return is_log_name(path); }
-bool is_mcap_path(const std::string& path) { return std::filesystem::path(path).extension() == ".mcap"; }
+bool is_mcap_path(const std::string& path) { return mcap::is_mcap_name(path); }
 bool is_file_path(const std::string& path) { return is_log_path(path) || is_mcap_path(path); }
 
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options) {
-  // Refuse combinations that no writer supports.
-  if (std::filesystem::path(path).extension() == ".oni")
-    return fail(".oni files are not written yet", path, "write an LCM log (.lcmlog) or a folder");
   if (options.rotation && !is_log_path(path))
     return fail("only an LCM log can continue in new files", path, "give a name that ends in .lcmlog");
 
@@ -127,7 +124,7 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
   std::error_code ignored;
   if (const auto there = std::filesystem::status(path, ignored); exists(there) && !is_directory(there))
     return fail("is no folder", path,
-                "a file, also a pipe that a program reads, has a name that ends in .lcmlog or .mcap");
+                "a file, also a pipe that a program reads, has a name that ends in " + std::string(kFileEndings));
 
   // Create the folder; colour is stored as JPEG only if the user asked for it.
   RecordingWriter::Options folder;

@@ -40,10 +40,11 @@ bool is_log_path(const std::string& path);
 bool is_mcap_path(const std::string& path);
 /// Whether `path` is written as one of these two, a single file, and not as a folder.
 bool is_file_path(const std::string& path);
+/// The endings of such files, for messages.
+inline constexpr const char* kFileEndings = ".lcmlog or .mcap";
 
 /// Creates an LCM log, an MCAP file or a recording folder, depending on the ending of `path`. Errors: it exists or
-/// cannot be created, `path` ends in .oni, which cannot be written, or a rotation is requested for something else than
-/// an LCM log.
+/// cannot be created, or a rotation is requested for something else than an LCM log.
 Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, const FrameWriterOptions& options);
 
 }  // namespace barehand

@@ -149,6 +149,10 @@ int run_copy(const CopyRequest& request, const std::string& command) {
     return kExitUsage;
   };
 
+  const Output named = output_of(request, false);
+  if (const auto good = check_ending(named, is_file_path(request.out), kFileEndings); !good)
+    return refuse(good.error());
+
   // Take the sensor's settings from the configuration; what the command line says takes precedence.
   SourceRequest input = request.source;
   if (!request.config.empty()) {

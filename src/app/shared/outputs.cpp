@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "io/lcm/rotating_log.h"
@@ -91,6 +92,15 @@ bool is_endless(const std::string& path) {
   return fs::is_other(status) && !fs::is_fifo(status);
 }
 
+/// Whether a name with this ending is one of a file: letters and digits, as many as an ending has.
+bool is_ending_of_file(const std::string& ending) {
+  constexpr std::size_t kLongest = 9;  // .lcmlog with two letters too many
+  const auto is_alphanumeric = [](unsigned char c) { return c == '.' || std::isalnum(c); };
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+  return ending.size() <= kLongest && std::ranges::all_of(ending, is_alphanumeric) &&
+         std::ranges::any_of(ending, is_letter);
+}
+
 bool has_pictures(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -103,6 +113,16 @@ bool has_pictures(const std::string& folder) {
 }
 
 }  // namespace
+
+Result<void> check_ending(const Output& output, bool known, const std::string& endings) {
+  const std::string ending = fs::path(output.path).extension().string();
+  std::error_code ignored;
+  if (known || !is_ending_of_file(ending) || target_of(output.path).direct || fs::is_directory(output.path, ignored))
+    return {};
+  return refuse(output, "ends in " + ending + ", which is not written here",
+                "give a name that ends in " + endings +
+                    (is_folder(output.kind) ? ", or " + output.path + "/ for a folder of this name" : ""));
+}
 
 bool is_taken(const Output& output) {
   if (output.path.empty() || target_of(output.path).direct) return false;

@@ -44,6 +44,11 @@ struct Output {
 Result<void> check_outputs(const SourceFiles& source, const std::vector<InputFile>& inputs,
                            const std::vector<Output>& outputs, bool overwrite);
 
+/// Refuses a path with the ending of a file that is not `known`, since a mistyped ending would make a folder, or a file
+/// that other programs take for something else. `endings` says which are known. A name without an ending, with a number
+/// for one (take.2), or with a slash at its end is never refused; nor is a folder that exists, a pipe or a device.
+Result<void> check_ending(const Output& output, bool known, const std::string& endings);
+
 /// Whether check_outputs refuses the output because it exists, so that --overwrite would help.
 bool is_taken(const Output& output);
 

@@ -49,6 +49,7 @@ ObjectFiles::Paths object_paths(const std::string& out, const std::string& name,
 Result<void> check_written(const SimOptions& options, const SyntheticSource& source) {
   std::vector<Output> outputs{
       {"--out", options.out, is_file_path(options.out) ? Output::Kind::file : Output::Kind::recording}};
+  if (auto good = check_ending(outputs[0], is_file_path(options.out), kFileEndings); !good) return good;
 
   // Add the files of each hand.
   const std::vector<SimulatedHand>& hands = source.hands();

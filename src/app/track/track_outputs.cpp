@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "io/hand/path_of_hand.h"
+#include "io/lcm/log_names.h"
+#include "io/mcap/mcap_writer.h"
 #include "io/place.h"
 #include "io/video/video_file.h"
 
@@ -64,6 +66,18 @@ std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Prof
   return outputs;
 }
 
+/// Checks the endings of outputs whose kind they say.
+Result<void> check_endings(const TrackOptions& o) {
+  return check_ending({"--mcap", o.mcap}, mcap::is_mcap_name(o.mcap), ".mcap")
+      .and_then([&] {
+        return check_ending({"--states-log", o.states_log}, is_log_name(o.states_log), ".lcmlog");
+      })
+      .and_then([&] {
+        return check_ending({"--overlay", o.overlay, kind_of_overlay(o.overlay)}, video_format(o.overlay) != nullptr,
+                            ".mp4, .mkv, .webm or .avi");
+      });
+}
+
 std::string numbered(const std::string& path, int number) {
   std::filesystem::path whole(path);
   if (!whole.has_filename()) whole = whole.parent_path();  // removes the slash at the end of a path like "folder/"
@@ -98,6 +112,7 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
   const bool number = live && !options.overwrite;
   if (const auto good = check_outputs(source, inputs, outputs_of(options, hands), options.overwrite || number); !good)
     return tl::unexpected(good.error());
+  if (const auto good = check_endings(options); !good) return tl::unexpected(good.error());
   if (!number) return options;
 
   // Give a number to the names that an earlier run has taken.

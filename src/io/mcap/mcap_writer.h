@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -13,6 +14,9 @@
 namespace barehand::mcap {
 
 // A writer of MCAP files.
+
+/// Whether an output of this name is to be an MCAP file: it ends in .mcap. An input is known by its content.
+inline bool is_mcap_name(const std::filesystem::path& path) { return path.extension() == ".mcap"; }
 
 /// A message to be written, with its topic, type and schema.
 struct NewMessage {
