@@ -202,6 +202,17 @@ TEST_P(Foxglove, TheProtocolIsAgreedOn) {
               "\r\n");
   EXPECT_THAT(client.read(false), HasSubstr("Sec-WebSocket-Protocol: " + std::string(GetParam()) + "\r\n"));
 }
+
+TEST_P(Foxglove, AViewerThatHasGoneLeavesNoTraceInLaterConnections) {
+  viewer();
+  for (int i = 0; i < 100; ++i) {  // more often than the server has threads, each of which remembers its last client
+    test::RawClient page(port());
+    page.send("GET /live HTTP/1.1\r\n" + test::upgrade("Host: localhost\r\n") + "\r\n");
+    const std::string answer = page.read(false);
+    ASSERT_EQ(test::status_of(answer), 101) << i << answer;
+    ASSERT_THAT(answer, Not(HasSubstr("Sec-WebSocket-Protocol"))) << i;
+  }
+}
 INSTANTIATE_TEST_SUITE_P(Protocols, Foxglove, testing::ValuesIn(kFoxgloveProtocols),
                          [](const auto& one) { return one.index == 0 ? "Sdk" : "WebSocket"; });
 

@@ -40,6 +40,13 @@ const char* chosen_protocol(const mg_connection* connection) {
   return mg_get_request_info(connection)->acceptedWebSocketSubprotocol;
 }
 
+/// Forgets the subprotocol of an earlier client: civetweb leaves it behind where it reuses a connection's memory.
+/// Returns 0: the request goes on.
+int forget_protocol(mg_connection* connection) {
+  const_cast<mg_request_info*>(mg_get_request_info(connection))->acceptedWebSocketSubprotocol = nullptr;
+  return 0;
+}
+
 WebConnection* connection_of(const mg_connection* connection) {
   return static_cast<WebConnection*>(mg_get_user_connection_data(connection));
 }
@@ -155,6 +162,7 @@ Result<int> WebServer::Impl::start() {
   // Start to listen on the port.
   mg_callbacks callbacks{};
   callbacks.log_message = [](const mg_connection*, const char*) { return 1; };  // no logging: start() returns the error
+  callbacks.begin_request = forget_protocol;
   // civetweb itself refuses what is damaged, and WebSockets of other versions and at other paths.
   callbacks.http_error = [](mg_connection* connection, int status, const char* text) {
     refuse(connection, status, text);
