@@ -154,7 +154,8 @@ Result<void> McapSource::choose() {
 
   // Fail if the file has no readable message, or if no topic with depth images matches.
   if (streams_.empty())
-    return fail("holds no message that can be read", path_, "it is empty, damaged or cut short before its first chunk");
+    return fail("holds no message that can be read", path_,
+                warnings_.empty() ? "it is empty, damaged or cut short before its first chunk" : warnings_.back());
   if (chosen.empty() && !options_.channel.empty())
     return fail("no topic with depth images matches " + in_quotes(options_.channel) + "; its topics are " + topics(),
                 path_);

@@ -216,6 +216,9 @@ TEST_F(McapReplay, WhatHoldsNoDepthIsSaidWithItsTopics) {
   test::ForeignMcap().write(path_);
   EXPECT_THAT(play(), IsEmpty());
   EXPECT_THAT(error_, HasSubstr("holds no message that can be read"));
+  test::ForeignMcap().chunk("lz4", 10, {1, 2, 3}).write(path_);
+  EXPECT_THAT(play(), IsEmpty());
+  EXPECT_THAT(error_, HasSubstr("mcap compress --compression zstd"));
 }
 
 TEST_F(McapReplay, AFrameThatLiesIsSkipped) {
