@@ -107,6 +107,22 @@ class Trouble(unittest.TestCase):
             with self.assertRaisesRegex(barehand.Error, "no message on DESK_HAND_STATE .*start `barehand track`"):
                 next(live)
 
+    def test_no_wait_goes_beyond_the_timeout(self):
+        waits, clock = [], [0.0]
+
+        def receive(seconds):
+            waits.append(seconds)
+            clock[0] += seconds
+
+        waiting = receiver.Receiver(URL, "", ["HAND_STATE"], Counts(), timeout=7)
+        waiting.close()
+        waiting.network = SimpleNamespace(receive=receive, ended=False, remedy="")
+        with mock.patch.object(receiver, "time", SimpleNamespace(monotonic=lambda: clock[0])):
+            with warnings.catch_warnings(), self.assertRaisesRegex(barehand.Error, "for 7 s"):
+                warnings.simplefilter("ignore")
+                next(iter(waiting))
+        self.assertEqual(waits, [5, 2])
+
     def test_contacts_are_waited_for_as_hands_are(self):
         with warnings.catch_warnings(record=True) as said, mock.patch.object(receiver, "_SILENCE", 0.01):
             warnings.simplefilter("always")

@@ -45,7 +45,8 @@ class Receiver:
         silence = 0.0  # without the time that the consumer takes
         while True:
             begin = time.monotonic()
-            message = self.network.receive(_SILENCE if self.timeout is None else min(self.timeout, _SILENCE))
+            rest = _SILENCE if self.timeout is None else max(0, self.timeout - silence)
+            message = self.network.receive(min(rest, _SILENCE))
             if message is None and self.network.ended:
                 return
             silence += time.monotonic() - begin
