@@ -56,7 +56,8 @@ const connection = new Connection({
     status = message;
     byId("source").textContent = message.source;
     showHealth(message);
-    timeline.show(message.log, shown);
+    timeline.show(message.log);
+    timeline.place(shown);
     applyRoom();
     recorder.show(message.record);
     showScan(message.scan || null);
@@ -105,7 +106,7 @@ function loop(now) {
 // Shows all texts about the frame that is shown, together, so that they agree.
 function tell() {
   if (shown && (open || ended)) showHands(shown, status && status.drawn, timeline.active);
-  if (timeline.active) timeline.show(timeline.log, shown);
+  timeline.place(shown);
   notice(problem());
 }
 
@@ -157,6 +158,7 @@ function applyRoom() {
 function theme() { return document.documentElement.dataset.theme; }
 function applyTheme() {
   if (scene) scene.setTheme(getComputedStyle(document.documentElement).getPropertyValue("--stage").trim(), theme());
+  timeline.mark();
 }
 function setTheme(name) {
   document.documentElement.dataset.theme = name;

@@ -20,17 +20,22 @@ export class Timeline {
   step(frames) { this.send({type: "step", value: frames}); }
   lost(direction) { this.send({type: "lost", value: direction}); }
 
-  // `log`: of the status; null: no log is played. `frame`: the frame that is shown, whose place the time line says; it may
-  // be older than the one of the status, which a slow browser gets before the frame. null: none is shown yet.
-  show(log, frame) {
+  // `log`: of the status; null: no log is played.
+  show(log) {
     this.log = log;
     byId("timeline").hidden = log === null;
     if (!log) return;
     byId("position").max = Math.max(0, log.frames - 1);
     byId("play").textContent = log.playing ? "❚❚" : "▶";
     byId("speed").value = String(log.speed);
-    this.mark(log);
-    if (!frame || !frame.place) return;
+    this.mark();
+  }
+
+  // Shows the place of the frame that is shown (null: none yet). It may be older than that of the status, which a slow
+  // browser gets before the frame.
+  place(frame) {
+    const log = this.log;
+    if (!log || !frame || !frame.place) return;
     const {position, at} = frame.place;
     if (document.activeElement !== byId("position") || log.playing) byId("position").value = position;
     byId("lost_before").disabled = !log.lost.some(([first]) => first < position);
@@ -40,7 +45,10 @@ export class Timeline {
     byId("log_time").textContent = `frame ${position + 1} of ${log.frames}, ${at.toFixed(2)} s of ${log.seconds.toFixed(2)} s; ${hands}`;
   }
 
-  mark(log) {
+  // Marks where the hand was lost, in the colours of the theme.
+  mark() {
+    const log = this.log;
+    if (!log) return;
     const canvas = byId("lost_marks"), draw = canvas.getContext("2d");
     canvas.width = canvas.clientWidth;
     canvas.height = 10;
