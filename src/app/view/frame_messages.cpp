@@ -1,6 +1,7 @@
 // Combines the LCM messages of one frame for the live page.
 #include "app/view/frame_messages.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -31,7 +32,8 @@ SegmentSizes sizes_of(const hand_state_t& state, const hand_joints_t* joints, co
   // Segments are as wide as thick, but for the palm, which is as wide as its knuckles are far apart.
   SegmentSizes sizes;
   for (int s = 0; s < kSegmentCount; ++s) {
-    const int joint = s == kPalm ? 0 : 2 + 5 * finger_of(s) + (s - 1) % 3, next = s == kPalm ? 0 : joint + 1;
+    const auto joint = std::ranges::find(own, s, &OpenXrJoint::segment) - own.begin(),
+               next = s == kPalm ? joint : joint + 1;
     const Eigen::Vector3d at_begin(radius[joint], radius[joint], length[s]),
         at_end(radius[next], radius[next], length[s]);
     sizes.col(s) << at_begin.cast<float>(), at_end.cast<float>();
