@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/quote.h"
 #include "io/hand/json_fields.h"
 
 namespace barehand {
@@ -19,10 +20,8 @@ constexpr const char* kWhere = "message of a client";
 Result<void> check_keys(const Object& message, std::initializer_list<const char*> known) {
   for (const auto& [key, value] : message.json.items()) {
     if (key == "type" || std::ranges::find(known, key) != known.end()) continue;
-    std::string list;
-    for (const char* name : known) list.append(list.empty() ? "" : ", ").append(name);
     return fail("unknown key " + json_fields::shown(key), kWhere,
-                list.empty() ? "give nothing but the type" : "besides the type there may be " + list);
+                known.size() == 0 ? "give nothing but the type" : "besides the type there may be " + comma_list(known));
   }
   return {};
 }
@@ -31,14 +30,12 @@ Result<void> check_keys(const Object& message, std::initializer_list<const char*
 Result<int> choice_of(const Object& message, const char* key, std::initializer_list<const char*> names) {
   const auto wanted = message.has(key) ? message.text(key) : Result<std::string>(*names.begin());
   if (!wanted) return tl::unexpected(wanted.error());
-  std::string list;
   int position = 0;
   for (const char* name : names) {
     if (*wanted == name) return position;
-    list.append(list.empty() ? "" : ", ").append(name);
     ++position;
   }
-  return fail(std::string("no such ") + key, kWhere, "ask for one of " + list);
+  return fail(std::string("no such ") + key, kWhere, "ask for one of " + comma_list(names));
 }
 
 Result<ViewRequest> settings_of(const Object& message) {

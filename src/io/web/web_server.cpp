@@ -9,6 +9,7 @@
 #include <future>
 #include <mutex>
 
+#include "core/quote.h"
 #include "io/web/allowed_origin.h"
 
 namespace barehand {
@@ -259,10 +260,8 @@ bool WebServer::Impl::refuse(const mg_connection* connection, int status, const 
 
 /// What the server's WebSockets speak, for a client that asked for something else.
 std::string WebServer::Impl::spoken() const {
-  std::string list;
-  for (const std::string& name : options_.protocols) list.append(list.empty() ? "" : ", ").append(name);
   return "The WebSocket at " + options_.socket_path + " has no subprotocol." +
-         (options_.connect_protocol ? " Those of the one at / are: " + list + "." : "");
+         (options_.connect_protocol ? " Those of the one at / are: " + comma_list(options_.protocols) + "." : "");
 }
 
 /// Decides whether a client gets its WebSocket. `speaks_it`: it asked for what is spoken at its path.
