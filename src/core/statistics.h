@@ -58,7 +58,7 @@ struct PipelineHealth {
   std::int64_t dropped = 0;    ///< frames dropped at the input queue because the tracker was slow
   std::int64_t failed = 0;     ///< frames on which a stage failed
   std::int64_t skipped = 0;    ///< frames that the source could not read; not included in `captured`
-  TimeSummary latency;         ///< time from capture (for a replay: from reading) to publication
+  TimeSummary latency;         ///< time from capture (for a replay: from reading) to publication of the hands
   std::vector<StageHealth> stages;
   std::vector<QueueHealth> queues;  ///< in the order in which frames pass them, beginning with those of the source
 };

@@ -223,12 +223,20 @@ void Pipeline::find_grasps(Item& item) {
 }
 
 void Pipeline::deliver(Item item) {
+  // The hands are published before it is found what they touch and how they grasp.
+  bool delivered = pass_to_sinks(item, true);
+  record_latency(item);
+
   find_contacts(item);
   find_grasps(item);
+  delivered &= pass_to_sinks(item, false);
+  ++(delivered ? published_ : failed_);
+}
 
-  // Pass the frame to every sink.
+bool Pipeline::pass_to_sinks(const Item& item, bool only_hands) {
   bool delivered = true;
   for (std::size_t i = 0; i < stages_.sinks.size(); ++i) {  // if a sink fails, the others still get the frame
+    if (stages_.sinks[i]->only_hands() != only_hands) continue;
     StageMonitor& monitor = *sink_monitors_[i];
     const int missed = monitor.failures_in_a_row();
     const auto consumed = monitor.run(&Sink::consume, stages_.sinks[i], item.data);
@@ -244,11 +252,14 @@ void Pipeline::deliver(Item item) {
     if (!stages_.source.live()) end_if_hopeless(monitor, consumed.error());
   }
 
-  // Count the frame, and record its latency once.
-  ++(delivered ? published_ : failed_);
+  return delivered;
+}
+
+void Pipeline::record_latency(const Item& item) {
+  const std::int64_t latency = latency_us(item);
   std::unique_lock lock(mutex_);
-  latency_.add(latency_us(item));
-  interval_latency_.add(latency_us(item));
+  latency_.add(latency);
+  interval_latency_.add(latency);
 }
 
 void Pipeline::idle() {

@@ -34,7 +34,7 @@ struct PipelineStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
   std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
-  /// What the hands touch; runs before the sinks, on their thread. Empty: frames have no contacts.
+  /// What the hands touch; runs on the thread of the sinks. Empty: frames have no contacts.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)>
       contact = {};
   /// How the hands grasp; runs after the contacts, likewise. Empty: frames have no grasps.
@@ -65,7 +65,7 @@ struct PipelineHeartbeat {
   std::int64_t inside = 0;    ///< frames in the queues and stages now
 };
 
-/// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> contact and sinks,
+/// Passes frames through source -> [input queue] -> preprocess -> [queue] -> track -> [queue] -> sinks and contact,
 /// each part on a thread of its own or all of them on one. If the tracker is slower than a live source, the input queue
 /// drops the oldest frames; frames of a replay are never dropped. A frame on which a stage fails is counted, reported
 /// and left out. When the source ends or fails, or the run is stopped, the frames in flight are processed and every
@@ -119,6 +119,9 @@ class Pipeline {
   void find_contacts(Item& item);
   void find_grasps(Item& item);
   void deliver(Item item);
+  // Passes the frame to the sinks that need only the hands, or to the others. Returns whether none failed.
+  bool pass_to_sinks(const Item& item, bool only_hands);
+  void record_latency(const Item& item);
   void idle();
   void finish_sinks();
 

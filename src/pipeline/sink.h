@@ -24,6 +24,8 @@ class Sink {
  public:
   virtual ~Sink() = default;
   virtual std::string name() const = 0;
+  /// Whether it needs nothing but the hands: it then gets each frame before contacts and grasps are found.
+  virtual bool only_hands() const { return false; }
   virtual Result<void> consume(const TrackedFrame& tracked) = 0;
   /// Does work that depends on the time, such as periodic messages. Called repeatedly while no frame arrives.
   virtual Result<void> idle() { return {}; }

@@ -22,11 +22,16 @@ void Publisher::send(const char* channel, const Message& message, Result<void>& 
   }
 }
 
-Result<void> Publisher::send(const HandMessages& messages) {
+Result<void> Publisher::send_hand(const HandMessages& messages) {
   Result<void> result;
   send("HAND_STATE", messages.state, result);
   send("GLOVE_STATE", messages.glove, result);
   send("HAND_JOINTS", messages.joints, result);
+  return result;
+}
+
+Result<void> Publisher::send_findings(const HandMessages& messages) {
+  Result<void> result;
   if (messages.contact) send("CONTACT_STATE", *messages.contact, result);
   if (messages.grasp) send("GRASP_STATE", *messages.grasp, result);
   return result;

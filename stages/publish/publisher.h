@@ -17,8 +17,12 @@ class Publisher {
   /// Errors: with this prefix, a channel name would be too long for LCM (63 bytes).
   static Result<Publisher> create(std::string prefix, std::vector<MessageSink*> sinks);
 
-  /// Every sink gets the messages even if another fails; the first error is returned.
-  Result<void> send(const HandMessages& messages);
+  // Every sink gets the messages even if another fails; the first error is returned.
+
+  /// The hand itself: HAND_STATE, GLOVE_STATE and HAND_JOINTS.
+  Result<void> send_hand(const HandMessages& messages);
+  /// What was found about it, if anything: CONTACT_STATE and GRASP_STATE.
+  Result<void> send_findings(const HandMessages& messages);
   Result<void> send(const object_state_t& object);
   Result<void> send(const health_t& health);
 

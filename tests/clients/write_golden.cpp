@@ -145,7 +145,7 @@ int write(const std::string& folder) {
       // Every frame gets a new message maker, so that its smoothed pose equals the raw one.
       const HandMessages messages = HandMessageMaker({}).process(estimate);
       scene.hands.push_back({messages.state, messages.glove, messages.joints});
-      if (auto sent = publisher.send(messages); !sent) return failed(sent.error());
+      if (auto sent = publisher.send_hand(messages); !sent) return failed(sent.error());
       if (!lost) write_outlets(table, *profile, pose, 2 * frame + (side == Handedness::left ? 1 : 0));
     }
     if (auto written = mcap::write_scene(**file, scene); !written) return failed(written.error());

@@ -42,6 +42,7 @@ std::function<SourceEvent(int)> frames_then_end(int count) {
 class RecordingSink : public Sink {
  public:
   std::string name() const override { return "recorder"; }
+  bool only_hands() const override { return wants_only_hands; }
   Result<void> consume(const TrackedFrame& tracked) override {
     if (on_frame) {
       if (auto ok = on_frame(tracked); !ok) return ok;
@@ -60,6 +61,7 @@ class RecordingSink : public Sink {
   }
   std::function<Result<void>(const TrackedFrame&)> on_frame;
   Result<void> finish_result;
+  bool wants_only_hands = false;
   std::vector<int> numbers;
   std::vector<double> scores;
   int finished = 0;
@@ -164,6 +166,32 @@ TEST_P(PipelineLifecycle, SinksGetTheContactsOfTheirFrameAndDoWithoutThoseThatFa
   EXPECT_EQ(result.health.published, 6);
   EXPECT_EQ(result.health.stages[2].name, "contact");
   EXPECT_EQ(result.health.stages[2].failed, 1);
+}
+
+TEST_P(PipelineLifecycle, SinksThatNeedOnlyHandsDoNotWaitForContacts) {
+  std::string order;
+  RecordingSink prompt;
+  prompt.wants_only_hands = true;
+  prompt.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
+    EXPECT_FALSE(tracked.contacts);
+    order += 'h';
+    return {};
+  };
+  world_.contact = [&](const HandObservations&, const HandEstimates&) -> Result<FrameContactsPtr> {
+    order += 'c';
+    return std::make_shared<FrameContacts>();
+  };
+  world_.sink.on_frame = [&](const TrackedFrame& tracked) -> Result<void> {
+    EXPECT_TRUE(tracked.contacts);
+    order += 's';
+    return {};
+  };
+  world_.sinks.push_back(&prompt);
+  ScriptedSource source(false, frames_then_end(3));
+  const RunResult result = world_.run(source);
+  EXPECT_EQ(order, "hcshcshcs");
+  EXPECT_EQ(result.health.published, 3);
+  EXPECT_EQ(result.health.latency.count, 3);
 }
 
 TEST_P(PipelineLifecycle, SinksGetTheGraspsOfTheirFrameAndDoWithoutThoseThatFailed) {

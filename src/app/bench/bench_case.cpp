@@ -25,6 +25,7 @@ class MeasuringSink : public Sink {
       : conditions_(conditions), stored_bytes_(stored_bytes), clock_(clock) {}
 
   std::string name() const override { return "measure"; }
+  bool only_hands() const override { return true; }
   Result<void> consume(const TrackedFrame& tracked) override {
     const bool all_tracked = std::ranges::all_of(
         tracked.estimates, [](const HandEstimatePtr& hand) { return hand->status == TrackStatus::tracking; });
@@ -136,6 +137,8 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       {[&] { return pipeline->health(); }, static_cast<std::int64_t>(bench.config.run.health_period * 1e6), "bench"},
       clock);
   if (!publish) return tl::unexpected(publish.error());
+  auto findings = FindingsSink::create(bench.config.publish, prefix, *bus);
+  if (!findings) return tl::unexpected(findings.error());
 
   // Make the same stages as `barehand track`.
   TrackStages stages =
@@ -145,7 +148,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   pipeline = std::make_unique<Pipeline>(PipelineStages{source,
                                                        std::move(stages.preprocess),
                                                        std::move(stages.track),
-                                                       {publish->get(), &measure},
+                                                       {publish->get(), &measure, findings->get()},
                                                        std::move(stages.contact),
                                                        std::move(stages.grasp)},
                                         options, clock, log);

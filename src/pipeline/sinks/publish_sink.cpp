@@ -6,12 +6,19 @@
 namespace barehand {
 
 Result<void> StatePublisher::send(const TrackedFrame& tracked) {
+  // Everything is sent even if something fails; the first error is returned.
   Result<void> result;
+  const auto note = [&result](Result<void> sent) {
+    if (result) result = std::move(sent);
+  };
+
   const FrameMessages messages = makers_.process(tracked);
-  for (const HandMessages& hand : messages.hands)
-    if (auto sent = publisher_.send(hand); !sent && result) result = std::move(sent);
-  for (const object_state_t& object : messages.objects)
-    if (auto sent = publisher_.send(object); !sent && result) result = std::move(sent);
+  for (const HandMessages& hand : messages.hands) {
+    if (what_ != What::findings) note(publisher_.send_hand(hand));
+    if (what_ != What::hands) note(publisher_.send_findings(hand));
+  }
+  if (what_ == What::hands) return result;
+  for (const object_state_t& object : messages.objects) note(publisher_.send(object));
   return result;
 }
 
@@ -25,8 +32,8 @@ Result<std::unique_ptr<Sink>> BusSink::create(const PublishParams& params, const
                                               Health health, const Clock& clock, Slot<PublishParams>* pending) {
   auto publisher = Publisher::create(prefix, {&bus});
   if (!publisher) return tl::unexpected(publisher.error());
-  return std::unique_ptr<Sink>(
-      new BusSink(StatePublisher(params, std::move(*publisher), pending), std::move(health), clock));
+  return std::unique_ptr<Sink>(new BusSink(
+      StatePublisher(params, std::move(*publisher), pending, StatePublisher::What::hands), std::move(health), clock));
 }
 
 Result<void> BusSink::consume(const TrackedFrame& tracked) {
@@ -41,6 +48,14 @@ Result<void> BusSink::send_health_when_due() {
   return states_.send(health_message(health_.take(), clock_.utime(), health_.source));
 }
 
+Result<std::unique_ptr<Sink>> FindingsSink::create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                                   Slot<PublishParams>* pending) {
+  auto publisher = Publisher::create(prefix, {&bus});
+  if (!publisher) return tl::unexpected(publisher.error());
+  return std::unique_ptr<Sink>(
+      new FindingsSink(StatePublisher(params, std::move(*publisher), pending, StatePublisher::What::findings)));
+}
+
 Result<std::unique_ptr<Sink>> StatesLogSink::create(const PublishParams& params, const std::string& prefix,
                                                     const std::string& path, bool overwrite,
                                                     Slot<PublishParams>* pending) {
@@ -48,8 +63,8 @@ Result<std::unique_ptr<Sink>> StatesLogSink::create(const PublishParams& params,
   if (!log) return tl::unexpected(log.error());
   auto publisher = Publisher::create(prefix, {log->get()});
   if (!publisher) return tl::unexpected(publisher.error());
-  return std::unique_ptr<Sink>(
-      new StatesLogSink(std::move(*log), StatePublisher(params, std::move(*publisher), pending)));
+  return std::unique_ptr<Sink>(new StatesLogSink(
+      std::move(*log), StatePublisher(params, std::move(*publisher), pending, StatePublisher::What::both)));
 }
 
 }  // namespace barehand

@@ -18,18 +18,20 @@ namespace barehand {
 /// distinguish the hands by id.
 class StatePublisher {
  public:
+  enum class What { hands, findings, both };  ///< findings: contacts, grasps and objects
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
-  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
-      : makers_(params, pending), publisher_(std::move(publisher)) {}
+  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending, What what)
+      : makers_(params, pending), publisher_(std::move(publisher)), what_(what) {}
   Result<void> send(const TrackedFrame& tracked);
   Result<void> send(const health_t& health) { return publisher_.send(health); }
 
  private:
   HandMessageMakers makers_;
   Publisher publisher_;
+  What what_;
 };
 
-/// Sends the states of every frame to the bus, and the pipeline's health once per period.
+/// Sends the hands of every frame to the bus as soon as they are tracked, and the pipeline's health once per period.
 class BusSink : public Sink {
  public:
   struct Health {
@@ -43,6 +45,7 @@ class BusSink : public Sink {
                                               Health health, const Clock& clock,
                                               Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "publish"; }
+  bool only_hands() const override { return true; }
   Result<void> consume(const TrackedFrame& tracked) override;
   /// Sends the health without frames, too, so that silence means that the program is not running.
   Result<void> idle() override { return send_health_when_due(); }
@@ -55,6 +58,21 @@ class BusSink : public Sink {
   Health health_;
   const Clock& clock_;
   std::int64_t next_health_us_;
+};
+
+/// Sends to the bus what was found about the hands of every frame: contacts, grasps and objects.
+class FindingsSink : public Sink {
+ public:
+  /// As for BusSink::create().
+  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                              Slot<PublishParams>* pending = nullptr);
+  std::string name() const override { return "publish findings"; }
+  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked); }
+
+ private:
+  explicit FindingsSink(StatePublisher states) : states_(std::move(states)) {}
+
+  StatePublisher states_;
 };
 
 /// --states-log: writes the states to an LCM log, and no health, so that equal runs write equal bytes.

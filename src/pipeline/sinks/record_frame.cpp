@@ -14,8 +14,10 @@ Result<void> record_frame(MessageSink& log, const std::string& prefix, const Rgb
 
   auto publisher = Publisher::create(prefix, {&log});
   if (!publisher) return tl::unexpected(publisher.error());
-  for (const HandMessages& hand : hands)
-    if (written) written = publisher->send(hand);
+  for (const HandMessages& hand : hands) {
+    if (written) written = publisher->send_hand(hand);
+    if (written) written = publisher->send_findings(hand);
+  }
   for (const object_state_t& object : objects)
     if (written) written = publisher->send(object);
   return written;
