@@ -23,8 +23,8 @@ constexpr int kOwnCells = 8;
 constexpr float kLeakReach = 0.03f;
 constexpr float kLeakFactor = 0.6f;
 
-// Skin-like cells on a hand that are labelled as something else are a thing that touches it if their area is larger
-// than this [m^2].
+// Colour misleads where a surface of at least this area [m^2] continues beyond the hand, or where such an area of
+// skin-like cells on the hand is labelled as something else.
 constexpr float kTouchingArea = 0.0007f;
 
 // Without colour, largest area of a separate surface, such as a cut-off finger, that may join a hand, as a fraction of
@@ -287,7 +287,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     const MatchCounts& own = match_counts_[id];
     if (own.on_model < kOwnCells && own.on_model < kOwnShare * surfaces_.parts[id].cells) continue;
     const bool leaks = own.off_model > kLeakFactor * own.on_model;
-    colour_misleads_ |= leaks && grid.coloured;
+    colour_misleads_ |= leaks && grid.coloured && surfaces_.parts[id].area > kTouchingArea;
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
 
