@@ -21,8 +21,9 @@ constexpr double kOutlier = 4.0 / 6;  // of a point that a pose does not explain
 constexpr int kTrial = 30;            // frames in which several hypotheses are compared
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
-constexpr int kSearchEvery = 2;               // frames from one search to the next
-constexpr double kLongestStep = 0.2;          // frames farther apart than this have nothing to do with each other [s]
+// Least time from one search to the next, at first and once they have been in vain for kVain [us].
+constexpr std::int64_t kSearchEvery = 60'000, kSearchRarely = 120'000, kVain = 2'000'000;
+constexpr double kLongestStep = 0.2;  // frames farther apart than this have nothing to do with each other [s]
 // A pose is given up if less of the object shows, or if more of what should be seen is seen through.
 constexpr double kLeastShown = 0.2, kMostContradicted = 0.15;
 constexpr double kSmooth = 0.5;  // weight of the newest velocity
@@ -143,10 +144,13 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
 
 /// Searches for the object around one place: in turn between the fingers and around the hands. Returns whether it was
 /// found.
-bool KnownObjectTracker::find(const ObservedDepth& view, const HandEstimates& estimates,
+bool KnownObjectTracker::find(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
                               std::span<const Vector3f> points) {
-  if (--wait_ > 0 || points.empty()) return false;
-  wait_ = kSearchEvery;
+  if (points.empty()) return false;
+  if (searches_ == 0) first_search_ = utime;
+  const std::int64_t pause = std::abs(utime - first_search_) > kVain ? kSearchRarely : kSearchEvery;
+  if (searches_ > 0 && std::abs(utime - last_search_) < pause) return false;
+  last_search_ = utime;
 
   // Search in turn between the fingers of a hand, and at one of the given points, which are about evenly spread.
   Vector3f seed = points[(static_cast<std::size_t>(searches_) * 7919) % points.size()];
@@ -162,7 +166,7 @@ bool KnownObjectTracker::find(const ObservedDepth& view, const HandEstimates& es
   const auto found = search_.search(*object_, view, points, seed);
   if (found.empty()) return false;
   hypotheses_.clear();
-  compared_ = 0;
+  compared_ = searches_ = 0;
   for (const FoundPose& pose : found)
     hypotheses_.push_back({.T = pose.T_camera_object, .covariance = diagonal(kFreeShift, kFreeTurn)});
   return true;
@@ -186,7 +190,7 @@ std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, co
     holding_ = {};
   }
   bool seen = !hypotheses_.empty() && follow(std::abs(dt), view, estimates, points);
-  const bool found = !seen && find(view, estimates, points);
+  const bool found = !seen && find(utime, view, estimates, points);
   if (found) seen = follow(0, view, {}, points);
   store_palms(utime, estimates);
   if (!seen) return std::nullopt;

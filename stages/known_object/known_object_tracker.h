@@ -16,7 +16,7 @@ namespace barehand {
 
 /// Tracks one known object. The pose is predicted from its velocity and from the palms, and refined on the depth near
 /// the prediction; since the refinement starts from there, a symmetric object does not jump. When the fit is bad or too
-/// little shows, there is no pose, and every few frames the object is searched for. Where a search finds several poses,
+/// little shows, there is no pose, and the object is searched for at intervals. Where a search finds several poses,
 /// all are followed, until the frames have shown which one is right.
 class KnownObjectTracker {
  public:
@@ -47,7 +47,8 @@ class KnownObjectTracker {
               std::span<const Eigen::Vector3f> points);
   void refine(Hypothesis& hypothesis, double dt, const ObservedDepth& view, std::span<const Eigen::Vector3f> points);
   void compare(const ObservedDepth& view);
-  bool find(const ObservedDepth& view, const HandEstimates& estimates, std::span<const Eigen::Vector3f> points);
+  bool find(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
+            std::span<const Eigen::Vector3f> points);
   void store_palms(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;
@@ -58,7 +59,8 @@ class KnownObjectTracker {
   std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the frame before
   std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
   int compared_ = 0;                   // frames in which the hypotheses were compared
-  int wait_ = 0, searches_ = 0;        // frames until the next search; searches so far
+  int searches_ = 0;                   // searches since it was found last
+  std::int64_t first_search_ = 0, last_search_ = 0;  // times of the first and the last of them [us]
   std::vector<Eigen::Vector3f> points_;
 };
 

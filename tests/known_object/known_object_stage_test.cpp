@@ -62,6 +62,18 @@ class KnownObjects : public testing::Test {
   std::int64_t utime_ = 1'000'000;
 };
 
+TEST_F(KnownObjects, AreFoundSoonAlsoAfterALongSearchInVain) {
+  look_for(test::hammer_mesh());
+  const KnownObjectPtr other = make_known_object(test::ball_mesh(0.04f), 2);
+  scene_.object = other.get();
+  for (int i = 0; i < 120; ++i) ASSERT_FALSE(next()) << i;
+
+  scene_.object = object_.get();
+  int frames = 0;
+  while (!next() && frames < 60) ++frames;
+  EXPECT_LT(frames, 15);
+}
+
 TEST_F(KnownObjects, AreFoundAndFollowed) {
   look_for(test::hammer_mesh());
   std::optional<ObjectEstimate> state;
