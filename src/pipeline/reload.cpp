@@ -52,7 +52,7 @@ Reload::Changes Reload::apply(const Config& wanted) {
   // Post the changed groups to the stages and sinks that use them.
   put_if_changed(out_.preprocess, in_force_.preprocess, next.preprocess);
   put_if_changed(out_.tracker, in_force_.tracker, next.tracker);
-  for (auto* slot : {&out_.bus, &out_.findings, &out_.states_log, &out_.mcap, &out_.view, &out_.progress})
+  for (auto* slot : {&out_.bus, &out_.states_log, &out_.mcap, &out_.view, &out_.progress})
     put_if_changed(*slot, in_force_.publish, next.publish);
   in_force_ = next;
   return changes;

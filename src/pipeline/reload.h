@@ -12,7 +12,7 @@ namespace barehand {
 struct PendingParams {
   Slot<PreprocessParams> preprocess;
   Slot<TrackerParams> tracker;
-  Slot<PublishParams> bus, findings, states_log, mcap, view, progress;
+  Slot<PublishParams> bus, states_log, mcap, view, progress;
 };
 
 /// Changes the configuration of a running pipeline.

@@ -137,8 +137,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
       {[&] { return pipeline->health(); }, static_cast<std::int64_t>(bench.config.run.health_period * 1e6), "bench"},
       clock);
   if (!publish) return tl::unexpected(publish.error());
-  auto findings = FindingsSink::create(bench.config.publish, prefix, *bus);
-  if (!findings) return tl::unexpected(findings.error());
+  FindingsSink findings(**publish);
 
   // Make the same stages as `barehand track`.
   TrackStages stages =
@@ -148,7 +147,7 @@ Result<BenchResult> run_case(const BenchCase& bench, const BenchConditions& cond
   pipeline = std::make_unique<Pipeline>(PipelineStages{source,
                                                        std::move(stages.preprocess),
                                                        std::move(stages.track),
-                                                       {publish->get(), &measure, findings->get()},
+                                                       {publish->get(), &measure, &findings},
                                                        std::move(stages.contact),
                                                        std::move(stages.grasp)},
                                         options, clock, log);

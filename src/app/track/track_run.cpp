@@ -308,11 +308,13 @@ Step TrackRun::open_bus() {
   // Publish the hands, what is found about them, and, at a regular interval, the health of the pipeline.
   BusSink::Health health{[this] { return with_view(pipeline_->take_interval_health()); },
                          static_cast<std::int64_t>(config_.run.health_period * 1e6), input_.source->name()};
-  const std::string& prefix = config_.run.channel_prefix;
-  if (auto added = add(BusSink::create(config_.publish, prefix, *bus_, std::move(health), clock_, &pending_.bus));
-      !added)
-    return added;
-  return add(FindingsSink::create(config_.publish, prefix, *bus_, &pending_.findings));
+  auto hands =
+      BusSink::create(config_.publish, config_.run.channel_prefix, *bus_, std::move(health), clock_, &pending_.bus);
+  if (!hands) return failure(hands.error());
+  auto findings = std::make_unique<FindingsSink>(**hands);
+  sinks_.push_back(std::move(*hands));
+  sinks_.push_back(std::move(findings));
+  return {};
 }
 
 Step TrackRun::open_mcap() {

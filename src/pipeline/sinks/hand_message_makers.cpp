@@ -5,7 +5,7 @@
 
 namespace barehand {
 
-FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
+std::span<const HandMessages> HandMessageMakers::make_hands(const TrackedFrame& tracked) {
   const HandEstimates& estimates = tracked.estimates;
 
   // Start again with new parameters if they have changed.
@@ -18,6 +18,11 @@ FrameMessages HandMessageMakers::process(const TrackedFrame& tracked) {
   while (makers_.size() < estimates.size()) makers_.emplace_back(params_);
   messages_.resize(estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) messages_[k] = makers_[k].process(*estimates[k]);
+  return messages_;
+}
+
+FrameMessages HandMessageMakers::add_findings(const TrackedFrame& tracked) {
+  const HandEstimates& estimates = tracked.estimates;
 
   // All messages about a hand state the same status.
   const auto published = [&](std::size_t k) { return static_cast<TrackStatus>(messages_[k].state.status); };

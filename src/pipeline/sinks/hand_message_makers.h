@@ -21,8 +21,14 @@ class HandMessageMakers {
  public:
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
   HandMessageMakers(const PublishParams& params, Slot<PublishParams>* pending) : params_(params), pending_(pending) {}
-  /// The messages, valid until the next call. Smoothing begins anew if parameters changed.
-  FrameMessages process(const TrackedFrame& tracked);
+  // Messages are valid until the next frame.
+
+  /// The messages of the hands, without what was found about them. Smoothing begins anew if parameters changed.
+  std::span<const HandMessages> make_hands(const TrackedFrame& tracked);
+  /// Completes the messages of make_hands(), which must have been called for the same frame.
+  FrameMessages add_findings(const TrackedFrame& tracked);
+  /// Both in one.
+  FrameMessages process(const TrackedFrame& tracked) { return make_hands(tracked), add_findings(tracked); }
 
  private:
   PublishParams params_;

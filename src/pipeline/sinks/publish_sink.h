@@ -18,17 +18,19 @@ namespace barehand {
 /// distinguish the hands by id.
 class StatePublisher {
  public:
-  enum class What { hands, findings, both };  ///< findings: contacts, grasps and objects
   /// `pending`: changed parameters, taken before every frame; may be null; must outlive this object.
-  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending, What what)
-      : makers_(params, pending), publisher_(std::move(publisher)), what_(what) {}
+  StatePublisher(const PublishParams& params, Publisher publisher, Slot<PublishParams>* pending)
+      : makers_(params, pending), publisher_(std::move(publisher)) {}
   Result<void> send(const TrackedFrame& tracked);
+  /// The hands alone, before it is known what they touch and how they grasp.
+  Result<void> send_hands(const TrackedFrame& tracked);
+  /// Contacts, grasps and objects of the frame whose hands were sent last.
+  Result<void> send_findings(const TrackedFrame& tracked);
   Result<void> send(const health_t& health) { return publisher_.send(health); }
 
  private:
   HandMessageMakers makers_;
   Publisher publisher_;
-  What what_;
 };
 
 /// Sends the hands of every frame to the bus as soon as they are tracked, and the pipeline's health once per period.
@@ -41,14 +43,16 @@ class BusSink : public Sink {
   };
   /// `bus`, `clock` and `pending` (changed parameters, taken before every frame; may be null) must outlive the sink.
   /// Errors: a channel prefix that is too long.
-  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
-                                              Health health, const Clock& clock,
-                                              Slot<PublishParams>* pending = nullptr);
+  static Result<std::unique_ptr<BusSink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
+                                                 Health health, const Clock& clock,
+                                                 Slot<PublishParams>* pending = nullptr);
   std::string name() const override { return "publish"; }
   bool only_hands() const override { return true; }
   Result<void> consume(const TrackedFrame& tracked) override;
   /// Sends the health without frames, too, so that silence means that the program is not running.
   Result<void> idle() override { return send_health_when_due(); }
+  /// What was found about the hands of the frame that was consumed last.
+  Result<void> send_findings(const TrackedFrame& tracked) { return states_.send_findings(tracked); }
 
  private:
   BusSink(StatePublisher states, Health health, const Clock& clock);
@@ -63,16 +67,13 @@ class BusSink : public Sink {
 /// Sends to the bus what was found about the hands of every frame: contacts, grasps and objects.
 class FindingsSink : public Sink {
  public:
-  /// As for BusSink::create().
-  static Result<std::unique_ptr<Sink>> create(const PublishParams& params, const std::string& prefix, LcmBus& bus,
-                                              Slot<PublishParams>* pending = nullptr);
+  /// `hands` sends the hands of the same frames before; it must outlive the sink.
+  explicit FindingsSink(BusSink& hands) : hands_(hands) {}
   std::string name() const override { return "publish findings"; }
-  Result<void> consume(const TrackedFrame& tracked) override { return states_.send(tracked); }
+  Result<void> consume(const TrackedFrame& tracked) override { return hands_.send_findings(tracked); }
 
  private:
-  explicit FindingsSink(StatePublisher states) : states_(std::move(states)) {}
-
-  StatePublisher states_;
+  BusSink& hands_;
 };
 
 /// --states-log: writes the states to an LCM log, and no health, so that equal runs write equal bytes.
