@@ -311,6 +311,8 @@ class Scripted(unittest.TestCase):
         for url in ("ws://", "ws://localhost:x", "ws://localhost:99999", "wss://localhost:8765"):
             with self.assertRaisesRegex(barehand.Error, "URLs look like ws|no encryption"):
                 barehand.hands(url)
+        with self.assertRaisesRegex(barehand.Error, "address for browsers.*use ws://localhost:8765"):
+            barehand.hands("http://localhost:8765")
         self.assertEqual(page.parse_url("ws://[::1]"), ("::1", 8765, "/live"))
 
 

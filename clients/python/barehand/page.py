@@ -24,6 +24,8 @@ def parse_url(url):
         host, port = parts.hostname, parts.port or DEFAULT_PORT
     except ValueError as error:
         raise Error(f"is no address of a live page: {error}", url, example) from None
+    if parts.scheme in ("http", "https"):
+        raise Error("is the address for browsers", url, f"programs use ws://{parts.netloc}")
     if parts.scheme == "wss":
         raise Error("the live page has no encryption", url, "use ws://, elsewhere through ssh -L 8765:localhost:8765 HOST")
     if parts.scheme != "ws" or not host:

@@ -18,7 +18,7 @@ class Receiver:
         """Opens the source; `names` are those of the wanted channels without the prefix, `also` is a further thing to do if
         nothing comes. Raises Error if the source cannot be opened."""
         url = "" if source is None else os.fspath(source)
-        self.is_page = url.startswith(("ws://", "wss://"))
+        self.is_page = url.startswith(("ws://", "wss://", "http://", "https://"))
         self.prefix = "" if self.is_page else prefix  # a live page has none
         self.wanted = {(self.prefix + name).encode() for name in names}
         self.timeout, self.network, self._also = timeout, None, also
