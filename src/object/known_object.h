@@ -49,6 +49,9 @@ struct NearbyObject {
   std::int32_t hand_id = -1;    ///< the hand of that palm; -1: the base is the camera
   std::int32_t holder_id = -1;  ///< the hand that holds it, also if it moves with no palm; -1: none
   double deviation = 0;         ///< standard deviation of its place [m]
+
+  /// T_camera_object, given the pose of the hand's palm.
+  SE3 pose(const SE3& T_camera_palm) const { return hand_id >= 0 ? T_camera_palm * T_base_object : T_base_object; }
 };
 
 }  // namespace barehand

@@ -108,6 +108,7 @@ void HandTracker::start_where_given(const HandObservation& observation, bool eno
 
 void HandTracker::start_track() {
   track_.ambiguous_frames = 0;
+  track_.hidden_fingers.forget();
   estimates_.start_track();
   person_.start_track();
 }

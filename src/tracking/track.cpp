@@ -1,28 +1,17 @@
 // The data that a tracker keeps from frame to frame about its hand.
 #include "tracking/track.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "stages/pose_prior/hidden_fingers.h"
-
 namespace barehand {
-namespace {
-
-constexpr double kRests = 0.5;  // hidden fingers that rest more firmly on what the hand grips stay where they are
-
-}  // namespace
 
 void Track::continue_with(const Hypothesis& best, const HandProfile& profile, const TrackerParams& params) {
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = best.refined.matched[s] >= params.seen_fraction;
   HandPose pose = best.refined.pose;
-  if (params.hidden_follow) {
-    std::array<bool, kFingerCount> stays;
-    std::ranges::transform(best.refined.rests, stays.begin(), [](double firmly) { return firmly > kRests; });
-    pose = with_hidden_following(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched, stays,
-                                 params.initialiser.widening);
-  }
+  if (params.hidden_follow)
+    pose = hidden_fingers.follow(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched,
+                                 best.refined.holds, params.initialiser.widening);
   motion.update(pose, seen, *best.prediction);
 }
 
@@ -39,6 +28,7 @@ void Track::forget() {
   state.reset();
   motion.forget();
   last_good.reset();
+  hidden_fingers.forget();
   search_frames = 0;
   baseline.reset();
   evidence.forget();

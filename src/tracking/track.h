@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "stages/pose_prior/hidden_fingers.h"
 #include "stages/prediction/motion_prediction.h"
 #include "stages/search/initialiser.h"
 #include "tracking/baseline_score.h"
@@ -18,6 +19,7 @@ struct Track {
 
   MotionModel motion;
   TrackState state;
+  HiddenFingers hidden_fingers;
   BaselineScore baseline;
   HandEvidence evidence;              ///< evidence, for each place, that a detection that is not tracked yet is a hand
   std::optional<HandPose> last_good;  ///< T_camera_segment of the last frame that was explained well

@@ -10,6 +10,17 @@ namespace {
 
 using Seen = std::array<bool, kSegmentCount>;
 
+constexpr double kSliver = 0.3;      // a segment with a smaller visible fraction does not show how a grasp closes
+constexpr double kWellShown = 0.4;   // visible fraction from which on a segment shows its finger's abduction
+constexpr double kThumbShare = 0.5;  // bending of the fingers as a fraction of that of the thumb's two joints together
+
+// Time constants [s]: with which the difference from the neighbours decays, usually and for kReleased [s] after a
+// release; with which a held finger closes; and with which abduction is learnt and returns to what was learnt.
+constexpr double kMemory = 1.5, kReleasing = 0.1, kReleased = 0.5, kClosing = 0.15, kLearned = 0.5, kReturning = 0.5;
+
+/// Share of a difference that decays within `dt`.
+double share_within(double dt, double time_constant) { return 1 - std::exp(-dt / time_constant); }
+
 /// Mean of `value(s)` over the corresponding segments (the same phalanx as `segment`) of the nearest fingers in which
 /// that phalanx is seen; none if there are none, and for the thumb, which moves on its own.
 template <class Value>
@@ -42,7 +53,6 @@ bool hidden_to_its_tip(int segment, const Seen& seen) {
 }  // namespace
 
 HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, const Seen& seen) {
-  constexpr double kDistalShare = 2.0 / 3;
   HandPose result = pose;
   const auto flexion_of = [&](int s) { return std::max(0.0, joint_angles(profile, pose, s).flexion); };
   for (int s = 1; s < kSegmentCount; ++s) {
@@ -56,14 +66,24 @@ HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, c
   return result;
 }
 
-HandPose with_hidden_following(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
+void HiddenFingers::remember(const HandProfile& profile, const HandPose& now, double dt,
+                             const std::array<double, kSegmentCount>& shown,
+                             const std::array<FingerHold, kFingerCount>& holds) {
+  const double newest = share_within(dt, kLearned);
+  for (int f = 1; f < kFingerCount; ++f) {
+    Finger& finger = fingers_[f];
+    finger.since_held = holds[f].firm() ? 0 : finger.since_held + dt;
+    const int root = segment_of(f, 0);
+    if (shown[root] < kWellShown) continue;
+    const double abduction = joint_angles(profile, now, root).abduction;
+    finger.abduction = finger.abduction ? *finger.abduction + newest * (abduction - *finger.abduction) : abduction;
+  }
+}
+
+HandPose HiddenFingers::follow(const HandProfile& profile, const HandPose& before, const HandPose& now, double dt,
                                const Seen& seen, const std::array<double, kSegmentCount>& shown,
-                               const std::array<bool, kFingerCount>& stays, double widening) {
-  constexpr double kMemory = 1.5;  // time constant with which the difference from the neighbours decays [s]
-  constexpr double kSliver = 0.3;  // a segment with a smaller visible fraction does not show how a grasp closes
-  constexpr double kThumbShare =
-      0.5;  // bending of the fingers as a fraction of that of the thumb's two joints together
-  const double forgotten = 1 - std::exp(-dt / kMemory);
+                               const std::array<FingerHold, kFingerCount>& holds, double widening) {
+  remember(profile, now, dt, shown, holds);
   const auto limits = widened_limits(profile, widening);
 
   // Measure how far each joint is bent, and how far it has bent since the previous frame.
@@ -80,15 +100,28 @@ HandPose with_hidden_following(const HandProfile& profile, const HandPose& befor
   // Move the hidden joints from the palm to the tips.
   HandPose result = now;
   for (int s = segment_of(1, 0); s < kSegmentCount; ++s) {
-    if (stays[finger_of(s)] || !hidden_to_its_tip(s, seen)) continue;
-    const int parent = parent_of(s);
-    result[s] = result[parent] * (now[parent].inverse() * now[s]);
+    if (!hidden_to_its_tip(s, seen)) continue;
+    const Finger& finger = fingers_[finger_of(s)];
+    const FingerHold& hold = holds[finger_of(s)];
+    JointAngles angles = joint_angles(profile, now, s);
 
-    // Bend the joint like its seen neighbours, and let it slowly approach their flexion.
-    const double flexion = flexion_of(s);
-    double aim = flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
-    aim += forgotten * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
-    result[s].R *= joint_rotation({std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi) - flexion, 0, 0});
+    if (hold.closed) {
+      const double closed = (*hold.closed)[s - segment_of(finger_of(s), 0)];
+      angles.flexion += share_within(dt, kClosing) * (closed - angles.flexion);
+    } else if (!hold.firm()) {
+      // Bend the joint like its seen neighbours, and let it approach their flexion.
+      double aim = angles.flexion + of_nearest_seen(s, seen, bent).value_or(is_tip(s) ? with_thumb / 2 : with_thumb);
+      const double approached = share_within(dt, finger.since_held < kReleased ? kReleasing : kMemory);
+      aim += approached * (of_nearest_seen(s, seen, flexion_of).value_or(aim) - aim);
+      angles.flexion = std::clamp(aim, limits[s].flexion_lo, limits[s].flexion_hi);
+    }
+
+    // Let it return to the abduction that was seen.
+    const int parent = parent_of(s);
+    if (parent == kPalm && finger.abduction)
+      angles.abduction += share_within(dt, kReturning) * (*finger.abduction - angles.abduction);
+    result[s] = result[parent] * (now[parent].inverse() * now[s]);
+    result[s].R = result[parent].R * profile.rest_relative(s).R * joint_rotation(angles);
   }
   return result;
 }

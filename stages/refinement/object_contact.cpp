@@ -29,9 +29,9 @@ ObjectContact::ObjectContact(const ObjectContactParams& params, HandSurface surf
   }
 }
 
-ObjectContact::Nearest ObjectContact::nearest(const HandPose& pose, int segment, const DistanceGrid& grid,
+ObjectContact::Nearest ObjectContact::nearest(const SE3& T_camera_segment, int segment, const DistanceGrid& grid,
                                               const SE3& T_camera_object) const {
-  const SE3 T_object_segment = T_camera_object.inverse() * pose[segment];
+  const SE3 T_object_segment = T_camera_object.inverse() * T_camera_segment;
   const Eigen::Matrix3f R = T_object_segment.R.cast<float>();
   const Vector3f t = T_object_segment.t.cast<float>();
   const auto reach = static_cast<float>(DistanceGrid::kMargin);
@@ -52,25 +52,35 @@ ObjectContact::Nearest ObjectContact::nearest(const HandPose& pose, int segment,
     point = p;
   }
   best.distance = least.distance;
-  best.point = pose[segment] * point.cast<double>();
+  best.point = T_camera_segment * point.cast<double>();
   best.gradient = T_camera_object.R * least.gradient.cast<double>();
   return best;
 }
 
+std::array<ObjectContact::Nearest, kSegmentCount> ObjectContact::nearest_of_all(const HandPose& pose,
+                                                                                const DistanceGrid& grid,
+                                                                                const SE3& T_camera_object) const {
+  std::array<Nearest, kSegmentCount> near;
+  for (int s = segment_of(0, 0); s < kSegmentCount; ++s) near[s] = nearest(pose[s], s, grid, T_camera_object);
+  return near;
+}
+
 /// How firmly the hand grips an object, from 0 to 1. A hand that opens shows that by the tips that are seen; if none
-/// is, it may grip.
+/// is, it may grip. A single tip also lies on an object that the hand only reaches for, so that the second nearest
+/// decides if several are seen.
 double ObjectContact::grip(const std::array<Nearest, kSegmentCount>& near,
                            const std::array<double, kSegmentCount>& hidden, bool held) const {
-  bool any_seen = false;
-  double least = DistanceGrid::kMargin;
+  double first = DistanceGrid::kMargin, second = first;
+  int seen = 0;
   for (int finger = 0; finger < kFingerCount; ++finger) {
     const int tip = segment_of(finger, 2);
     if (hidden[tip] > kHidden) continue;
-    any_seen = true;
-    least = std::min(least, near[tip].distance);
+    ++seen;
+    second = std::min(second, std::max(first, near[tip].distance));
+    first = std::min(first, near[tip].distance);
   }
-  if (!any_seen) return held ? 1 : 0;
-  return std::clamp((kApart - least) / (kApart - kTouching), 0.0, 1.0);
+  if (seen == 0) return held ? 1 : 0;
+  return std::clamp((kApart - (seen > 1 ? second : first)) / (kApart - kTouching), 0.0, 1.0);
 }
 
 ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<const NearbyObject> objects,
@@ -78,10 +88,7 @@ ObjectContact::Terms ObjectContact::add_terms(const HandPose& pose, std::span<co
                                               GaussianTree& tree) const {
   Terms result;
   for (const NearbyObject& nearby : objects) {
-    const SE3 T_camera_object = nearby.hand_id >= 0 ? pose[kPalm] * nearby.T_base_object : nearby.T_base_object;
-    std::array<Nearest, kSegmentCount> nearest_of;
-    for (int s = segment_of(0, 0); s < kSegmentCount; ++s)
-      nearest_of[s] = nearest(pose, s, nearby.object->grid, T_camera_object);
+    const auto nearest_of = nearest_of_all(pose, nearby.object->grid, nearby.pose(pose[kPalm]));
     const double firm = grip(nearest_of, hidden, nearby.holder_id >= 0);
 
     // Add the distance of each segment.

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "hand/gaussian_tree.h"
+#include "hand/grasps/finger_hold.h"
 #include "hand/hand_pose.h"
+#include "hand/joint_angles.h"
 #include "hand/surface.h"
 #include "object/known_object.h"
 
@@ -47,15 +50,30 @@ class ObjectContact {
   Terms add_terms(const HandPose& pose, std::span<const NearbyObject> objects,
                   const std::array<double, kSegmentCount>& hidden, GaussianTree& tree) const;
 
+  /// How far each hidden finger of a hand that grips an object is bent once it is closed on that: its hidden joints
+  /// bend together from straight, and each stops when its segment or one after it touches. None for the thumb, for a
+  /// finger that is seen to its tip, and for one whose pad does not come to touch the object, or that touches it
+  /// straight. `limits` of the joints [rad].
+  std::array<std::optional<FingerFlexion>, kFingerCount> closed(const HandProfile& profile,
+                                                                const std::array<JointLimits, kSegmentCount>& limits,
+                                                                const HandPose& pose,
+                                                                std::span<const NearbyObject> objects,
+                                                                const std::array<double, kSegmentCount>& hidden) const;
+
  private:
   /// The place of a segment's skin that is nearest to an object.
   struct Nearest {
     double distance = DistanceGrid::kMargin;      // signed [m]
     Eigen::Vector3d point, gradient = {0, 0, 0};  // camera frame; the gradient is that of the distance
   };
+  std::array<Nearest, kSegmentCount> nearest_of_all(const HandPose& pose, const DistanceGrid& grid,
+                                                    const SE3& T_camera_object) const;
   double grip(const std::array<Nearest, kSegmentCount>& near, const std::array<double, kSegmentCount>& hidden,
               bool held) const;
-  Nearest nearest(const HandPose& pose, int segment, const DistanceGrid& grid, const SE3& T_camera_object) const;
+  Nearest nearest(const SE3& T_camera_segment, int segment, const DistanceGrid& grid, const SE3& T_camera_object) const;
+  std::optional<FingerFlexion> close(int finger, int first, const HandProfile& profile,
+                                     const std::array<JointLimits, kSegmentCount>& limits, const HandPose& pose,
+                                     const DistanceGrid& grid, const SE3& T_camera_object) const;
 
   ObjectContactParams params_;
   HandSurface surface_;

@@ -71,7 +71,9 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
   tree.H_self[kPalm].diagonal().array() += 1 / square(kAnywhere);
   const auto limits = widened_limits(profile, energy_.limit_widening_deg * kDegree);
   for (int s = 1; s < kSegmentCount; ++s) {
-    hidden_for_[s] = hidden[s] ? hidden_for_[s] + dt : 0;
+    // What an object holds has not moved since it was seen.
+    const bool moves = hidden[s] && !refined.holds[finger_of(s)].firm();
+    hidden_for_[s] = moves ? hidden_for_[s] + dt : 0;
     // A visible segment is held by its data alone, so its joint is left free over its range.
     const Vector3d deviation = spread(params_, energy_, limits[s], hidden[s] ? hidden_for_[s] : kNeverSeen);
     const JointLinearisation joint = linearise_joint(profile, refined.pose, s);

@@ -32,11 +32,20 @@ constexpr double kFree = 0.4;
 constexpr double kShown = 0.1;
 constexpr double kFolds = 4;  // DataWeighting::folds for skin that was not scanned
 
+using Shares = std::array<double, kSegmentCount>;
+
 // The matched fraction of each segment relative to `enough`, clamped to [0, 1].
-std::array<double, kSegmentCount> towards(double enough, const RefinedPose& pose) {
-  std::array<double, kSegmentCount> share;
+Shares towards(double enough, const RefinedPose& pose) {
+  Shares share;
   for (int s = 0; s < kSegmentCount; ++s) share[s] = std::clamp(pose.matched[s] / enough, 0.0, 1.0);
   return share;
+}
+
+// How hidden each segment is that is seen to the degree `seen`.
+Shares hidden_of(const Shares& seen) {
+  Shares hidden;
+  std::ranges::transform(seen, hidden.begin(), [](double share) { return 1 - share; });
+  return hidden;
 }
 
 }  // namespace
@@ -88,9 +97,8 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
   if (!objects.empty()) {
-    std::array<double, kSegmentCount> hidden;
-    std::ranges::transform(seen, hidden.begin(), [](double share) { return 1 - share; });
-    refined.rests = object_contact_.add_terms(pose, objects, hidden, tree).rests;
+    const auto rests = object_contact_.add_terms(pose, objects, hidden_of(seen), tree).rests;
+    for (int finger = 0; finger < kFingerCount; ++finger) refined.holds[finger].rests = rests[finger];
   }
   add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -156,7 +164,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
 
   // Compute how much of each segment is seen at the start pose: the more is seen, the more freely it may leave its
   // prediction.
-  const std::array<double, kSegmentCount> seen = towards(kFree, result), shown = towards(kShown, result);
+  const Shares seen = towards(kFree, result), shown = towards(kShown, result);
 
   const bool measured = profile_->origin == ProfileOrigin::measured;
 
@@ -182,6 +190,11 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   }
 
   summarise(*work, result);
+  if (!objects.empty()) {
+    const auto closed =
+        object_contact_.closed(*profile_, limits_, result.pose, objects, hidden_of(towards(kFree, result)));
+    for (int finger = 0; finger < kFingerCount; ++finger) result.holds[finger].closed = closed[finger];
+  }
   return result;
 }
 

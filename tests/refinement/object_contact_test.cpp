@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gradient_error.h"
+#include "hand/articulated_pose.h"
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "stages/refinement/hand_energy.h"
@@ -191,6 +192,80 @@ TEST_F(ObjectContactTest, AnObjectOutOfReachAddsNothing) {
   object.holder_id = 1;
   object.T_base_object.t.z() += 0.3;
   EXPECT_EQ(energy(pose_, object), 0);
+}
+
+TEST_F(ObjectContactTest, HiddenFingersCloseUntilTheirSkinTouches) {
+  // A wall across the way of the fingers, 25 mm in front of the index fingertip, which is open.
+  ArticulatedPose open{{pose_[kPalm].R, pose_[kPalm].t}, {}};
+  pose_ = posed(*profile_, open);
+  const auto limits = widened_limits(*profile_, 10 * kDegree);
+  const NearbyObject wall = wall_at_the_pads(0.025, true);
+  const auto closed = contact_.closed(*profile_, limits, pose_, {&wall, 1}, hidden_);
+  EXPECT_FALSE(closed[0]) << "the thumb";
+  for (int finger = 1; finger < kFingerCount; ++finger) {
+    ASSERT_TRUE(closed[finger]) << finger;
+    ArticulatedPose bent = open;
+    for (int k = 0; k < 3; ++k) bent.angles[segment_of(finger, k)].flexion = (*closed[finger])[k];
+    const HandPose at_the_wall = posed(*profile_, bent);
+    double least = 1;
+    for (int k = 0; k < 3; ++k) {
+      const SegmentSurface& skin = surface_[segment_of(finger, k)];
+      const SE3 T_wall_segment = wall.T_base_object.inverse() * at_the_wall[segment_of(finger, k)];
+      for (std::size_t i = 0; i < skin.size(); ++i) {
+        const Eigen::Vector3d p = T_wall_segment * Eigen::Vector3d(skin.x[i], skin.y[i], skin.z[i]);
+        least = std::min<double>(least, wall.object->grid.distance(p.cast<float>()));
+      }
+    }
+    EXPECT_NEAR(least, 0, 0.0025) << finger;  // a joint turns by 0.01 rad a step
+  }
+}
+
+TEST_F(ObjectContactTest, OnlyHiddenFingersThatReachAGrippedObjectClose) {
+  pose_ = posed(*profile_, {{pose_[kPalm].R, pose_[kPalm].t}, {}});
+  const auto limits = widened_limits(*profile_, 10 * kDegree);
+  const auto closes = [&](const NearbyObject& object, int finger) {
+    return contact_.closed(*profile_, limits, pose_, {&object, 1}, hidden_)[finger].has_value();
+  };
+  const NearbyObject wall = wall_at_the_pads(0.025, true);
+  EXPECT_TRUE(closes(wall, 2));
+
+  // One that is not held, is touched by straight fingers, or is out of reach.
+  EXPECT_FALSE(closes(wall_at_the_pads(0.025, false), 2));
+  EXPECT_FALSE(closes(wall_at_the_pads(-0.005, true), 2));
+  NearbyObject behind = wall;
+  behind.T_base_object.t += 0.15 * pose_[kPalm].R.col(1);
+  EXPECT_FALSE(closes(behind, 2));
+
+  // A finger that is seen to its tip stays; of one whose first segment is seen, the others close.
+  hidden_[segment_of(2, 2)] = 0;
+  EXPECT_FALSE(closes(wall, 2));
+  hidden_[segment_of(2, 2)] = 1;
+  hidden_[segment_of(2, 0)] = 0;
+  const auto closed = contact_.closed(*profile_, limits, pose_, {&wall, 1}, hidden_);
+  ASSERT_TRUE(closed[2]);
+  EXPECT_NEAR((*closed[2])[0], 0, 1e-9);
+  EXPECT_GT((*closed[2])[1], 0.2);
+}
+
+TEST_F(ObjectContactTest, OneTipOfSeveralThatAreSeenShowsNoGrip) {
+  // The hand reaches for a ball at its index fingertip; its thumb, far from the ball, is seen, too.
+  const int index = segment_of(1, 2);
+  NearbyObject ball = ball_at_the_pad(0, -1);
+  const SE3& tip = pose_[index];
+  ball.T_base_object.t = tip * Eigen::Vector3d(0.8 * profile_->segments[index].distal) -
+                         (kRadius + 0.001 + profile_->segments[index].half_thickness[1]) * tip.R.col(1);
+  hidden_[index] = 0;
+  const auto rests_anywhere = [&] {
+    GaussianTree tree;
+    tree.set_zero();
+    double most = 0;
+    for (const double rests : contact_.add_terms(pose_, {&ball, 1}, hidden_, tree).rests) most = std::max(most, rests);
+    return most;
+  };
+  const double gripped = rests_anywhere();
+  hidden_[segment_of(4, 2)] = 0;
+  EXPECT_EQ(rests_anywhere(), 0);
+  EXPECT_GT(gripped, 0) << "without the little finger, the tip that is seen decides";
 }
 
 // Minimises the energy of the refinement without data: the soft joints hold the hand together, and each step starts
