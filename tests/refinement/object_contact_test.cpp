@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gradient_error.h"
 #include "hand/articulated_pose.h"
 #include "hand/skin.h"
@@ -20,10 +22,10 @@ class ObjectContactTest : public testing::Test {
  protected:
   ObjectContactTest() { hidden_.fill(1); }
 
-  /// A ball whose surface is about `gap` [m] from the pad of the thumb.
-  NearbyObject ball_at_the_pad(double gap, std::int32_t hand_id) const {
-    const SE3& tip = pose_[kTip];
-    const SegmentProfile& segment = profile_->segments[kTip];
+  /// A ball whose surface is about `gap` [m] from the pad of a fingertip, here of the thumb.
+  NearbyObject ball_at_the_pad(double gap, std::int32_t hand_id, int of_tip = kTip) const {
+    const SE3& tip = pose_[of_tip];
+    const SegmentProfile& segment = profile_->segments[of_tip];
     NearbyObject ball{ball_, {Eigen::Matrix3d::Identity(), tip * Eigen::Vector3d(0.8 * segment.distal)}};
     ball.T_base_object.t -= (kRadius + gap + segment.half_thickness[1]) * tip.R.col(1);
     if (hand_id >= 0) ball.T_base_object = pose_[kPalm].inverse() * ball.T_base_object;
@@ -46,13 +48,19 @@ class ObjectContactTest : public testing::Test {
     unused.set_zero();
     return contact_.add_terms(pose, {&object, 1}, hidden_, unused).energy;
   }
-  /// The signed distance of the thumb's last segment from an object in the palm [m].
-  double distance(const HandPose& pose, const NearbyObject& object) const {
-    const SE3 T_object_tip = (pose[kPalm] * object.T_base_object).inverse() * pose[kTip];
-    const SegmentSurface& tip = surface_[kTip];
+  /// How firmly each hidden fingertip rests on an object.
+  std::array<double, kFingerCount> rests(const NearbyObject& object) const {
+    GaussianTree unused;
+    unused.set_zero();
+    return contact_.add_terms(pose_, {&object, 1}, hidden_, unused).rests;
+  }
+  /// The signed distance of a segment, here of the thumb's last one, from an object [m].
+  double distance(const HandPose& pose, const NearbyObject& object, int segment = kTip) const {
+    const SE3 T_object_segment = object.pose(pose[kPalm]).inverse() * pose[segment];
+    const SegmentSurface& skin = surface_[segment];
     double least = 1;
-    for (std::size_t i = 0; i < tip.size(); ++i) {
-      const Eigen::Vector3d p = T_object_tip * Eigen::Vector3d(tip.x[i], tip.y[i], tip.z[i]);
+    for (std::size_t i = 0; i < skin.size(); ++i) {
+      const Eigen::Vector3d p = T_object_segment * Eigen::Vector3d(skin.x[i], skin.y[i], skin.z[i]);
       least = std::min<double>(least, object.object->grid.distance(p.cast<float>()));
     }
     return least;
@@ -132,22 +140,16 @@ TEST_F(ObjectContactTest, OnlyHiddenTipsOfTheHandThatHoldsItAreDrawnToAnObject) 
 
 TEST_F(ObjectContactTest, TipsThatAreSeenShowWhetherTheHandGrips) {
   // The index fingertip, which is seen, touches a wall or not; so does that of the middle finger, which is hidden.
-  const auto rests = [&](double gap, bool held) {
-    const NearbyObject object = wall_at_the_pads(gap, held);
-    GaussianTree tree;
-    tree.set_zero();
-    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).rests[2];
-  };
   const int index = segment_of(1, 2);
   hidden_[index] = 0;
-  EXPECT_GT(rests(0.001, false), 0.5);
-  EXPECT_GT(rests(0.001, true), 0.5);
-  EXPECT_EQ(rests(0.012, true), 0);
+  EXPECT_GT(rests(wall_at_the_pads(0.001, false))[2], 0.5);
+  EXPECT_GT(rests(wall_at_the_pads(0.001, true))[2], 0.5);
+  EXPECT_EQ(rests(wall_at_the_pads(0.012, true))[2], 0);
 
   // No tip is seen.
   hidden_[index] = 1;
-  EXPECT_GT(rests(0.001, true), 0.5);
-  EXPECT_EQ(rests(0.001, false), 0);
+  EXPECT_GT(rests(wall_at_the_pads(0.001, true))[2], 0.5);
+  EXPECT_EQ(rests(wall_at_the_pads(0.001, false))[2], 0);
 
   // The little finger shows that the hand is open.
   hidden_[segment_of(4, 2)] = 0;
@@ -173,18 +175,12 @@ TEST_F(ObjectContactTest, OnlyPadsAreDrawnToAnObject) {
 }
 
 TEST_F(ObjectContactTest, OnlyTipsNearTheSurfaceRestOnAnObject) {
-  const auto rests = [&](double gap) {
-    const NearbyObject object = ball_at_the_pad(gap, 1);
-    GaussianTree tree;
-    tree.set_zero();
-    return contact_.add_terms(pose_, {&object, 1}, hidden_, tree).rests;
-  };
-  EXPECT_GT(rests(0.001)[0], 0.9);
-  EXPECT_EQ(rests(-0.002)[0], 1);
-  EXPECT_LT(rests(0.02)[0], 0.5);
-  EXPECT_EQ(rests(0.001)[3], 0) << "the ring finger is far away";
+  EXPECT_GT(rests(ball_at_the_pad(0.001, 1))[0], 0.9);
+  EXPECT_EQ(rests(ball_at_the_pad(-0.002, 1))[0], 1);
+  EXPECT_LT(rests(ball_at_the_pad(0.02, 1))[0], 0.5);
+  EXPECT_EQ(rests(ball_at_the_pad(0.001, 1))[3], 0) << "the ring finger is far away";
   hidden_[kTip] = 0;
-  EXPECT_EQ(rests(0.001)[0], 0) << "the thumb is seen";
+  EXPECT_EQ(rests(ball_at_the_pad(0.001, 1))[0], 0) << "the thumb is seen";
 }
 
 TEST_F(ObjectContactTest, AnObjectOutOfReachAddsNothing) {
@@ -208,14 +204,7 @@ TEST_F(ObjectContactTest, HiddenFingersCloseUntilTheirSkinTouches) {
     for (int k = 0; k < 3; ++k) bent.angles[segment_of(finger, k)].flexion = (*closed[finger])[k];
     const HandPose at_the_wall = posed(*profile_, bent);
     double least = 1;
-    for (int k = 0; k < 3; ++k) {
-      const SegmentSurface& skin = surface_[segment_of(finger, k)];
-      const SE3 T_wall_segment = wall.T_base_object.inverse() * at_the_wall[segment_of(finger, k)];
-      for (std::size_t i = 0; i < skin.size(); ++i) {
-        const Eigen::Vector3d p = T_wall_segment * Eigen::Vector3d(skin.x[i], skin.y[i], skin.z[i]);
-        least = std::min<double>(least, wall.object->grid.distance(p.cast<float>()));
-      }
-    }
+    for (int k = 0; k < 3; ++k) least = std::min(least, distance(at_the_wall, wall, segment_of(finger, k)));
     EXPECT_NEAR(least, 0, 0.0025) << finger;  // a joint turns by 0.01 rad a step
   }
 }
@@ -248,23 +237,13 @@ TEST_F(ObjectContactTest, OnlyHiddenFingersThatReachAGrippedObjectClose) {
 }
 
 TEST_F(ObjectContactTest, OneTipOfSeveralThatAreSeenShowsNoGrip) {
-  // The hand reaches for a ball at its index fingertip; its thumb, far from the ball, is seen, too.
+  // The hand reaches for a ball at its index fingertip; its little finger, far from the ball, is seen, too.
   const int index = segment_of(1, 2);
-  NearbyObject ball = ball_at_the_pad(0, -1);
-  const SE3& tip = pose_[index];
-  ball.T_base_object.t = tip * Eigen::Vector3d(0.8 * profile_->segments[index].distal) -
-                         (kRadius + 0.001 + profile_->segments[index].half_thickness[1]) * tip.R.col(1);
+  const NearbyObject ball = ball_at_the_pad(0.001, -1, index);
   hidden_[index] = 0;
-  const auto rests_anywhere = [&] {
-    GaussianTree tree;
-    tree.set_zero();
-    double most = 0;
-    for (const double rests : contact_.add_terms(pose_, {&ball, 1}, hidden_, tree).rests) most = std::max(most, rests);
-    return most;
-  };
-  const double gripped = rests_anywhere();
+  const double gripped = std::ranges::max(rests(ball));
   hidden_[segment_of(4, 2)] = 0;
-  EXPECT_EQ(rests_anywhere(), 0);
+  EXPECT_EQ(std::ranges::max(rests(ball)), 0);
   EXPECT_GT(gripped, 0) << "without the little finger, the tip that is seen decides";
 }
 
