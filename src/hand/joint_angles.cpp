@@ -49,14 +49,16 @@ std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile
   return limits;
 }
 
+void place_segment(const HandProfile& profile, int segment, const JointAngles& angles, HandPose& pose) {
+  pose[segment] = pose[parent_of(segment)] * profile.rest_relative(segment);
+  pose[segment].R *= joint_rotation(angles);
+}
+
 HandPose forward_kinematics(const HandProfile& profile, const SE3& T_camera_palm,
                             const std::array<JointAngles, kSegmentCount>& angles) {
   HandPose pose;
   pose[kPalm] = T_camera_palm;
-  for (int s = 1; s < kSegmentCount; ++s) {
-    pose[s] = pose[parent_of(s)] * profile.rest_relative(s);
-    pose[s].R *= joint_rotation(angles[s]);
-  }
+  for (int s = 1; s < kSegmentCount; ++s) place_segment(profile, s, angles[s], pose);
   return pose;
 }
 

@@ -30,6 +30,8 @@ struct JointLimits {
 /// ranges). A joint without abduction keeps the range [0, 0] for it.
 std::array<JointLimits, kSegmentCount> widened_limits(const HandProfile& profile, double widening);
 
+/// Places a segment at its joint on its parent, which must be in place, with these angles. The joint is closed exactly.
+void place_segment(const HandProfile& profile, int segment, const JointAngles& angles, HandPose& pose);
 /// The pose with the given palm pose and joint angles. All joints are closed exactly.
 HandPose forward_kinematics(const HandProfile& profile, const SE3& T_camera_palm,
                             const std::array<JointAngles, kSegmentCount>& angles);

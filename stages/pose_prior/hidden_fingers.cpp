@@ -60,8 +60,7 @@ HandPose with_hidden_neutral(const HandProfile& profile, const HandPose& pose, c
     const int parent = parent_of(s);
     const double flexion = parent == kPalm ? of_nearest_seen(s, seen, flexion_of).value_or(0.0)
                                            : std::max(0.0, joint_angles(profile, result, parent).flexion);
-    result[s] = result[parent] * profile.rest_relative(s);
-    result[s].R *= joint_rotation({is_tip(s) ? kDistalShare * flexion : flexion, 0, 0});
+    place_segment(profile, s, {is_tip(s) ? kDistalShare * flexion : flexion, 0, 0}, result);
   }
   return result;
 }

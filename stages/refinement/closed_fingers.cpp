@@ -35,8 +35,7 @@ std::optional<FingerFlexion> ObjectContact::close(int finger, int first, const H
     double least = DistanceGrid::kMargin;
     for (int k = first; k < 3; ++k) {
       const int s = segment_of(finger, k);
-      moved[s] = moved[parent_of(s)] * profile.rest_relative(s);
-      moved[s].R *= joint_rotation(angles[k]);
+      place_segment(profile, s, angles[k], moved);
       if (k < free) continue;
       const Nearest near = nearest(moved[s], s, grid, T_camera_object);
       if (near.distance >= kTouches) {
