@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "hand/segments.h"
 #include "math/se3.h"
 

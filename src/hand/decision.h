@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 
 namespace barehand {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "hand/decision.h"
 #include "hand/profile.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "observe/detection.h"
 #include "sensor/rgbd_frame.h"
 

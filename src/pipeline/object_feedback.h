@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/feedback.h"
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "hand/hand_pose.h"
 #include "object/known_object.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "hand/hand_pose.h"
 #include "observe/registration/observed_cloud.h"
 #include "observe/registration/rigid_icp.h"

@@ -1,4 +1,4 @@
-#include "core/available_memory.h"
+#include "core/memory/available_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,8 @@
 #include "app/shared/outputs.h"
 #include "app/shared/run_inputs.h"
 #include "app/shared/standard_streams.h"
-#include "core/available_memory.h"
+#include "core/memory/available_memory.h"
+#include "core/memory/kept_memory.h"
 #include "core/parallel/parallel.h"
 #include "io/data_files.h"
 #include "tracking/memory_check.h"
@@ -147,6 +148,7 @@ void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report,
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
+  keep_freed_memory();  // as `track` does
   if (const auto free = check_written(options); !free) return failed("bench", free.error(), kExitUsage);
   if (!options.draw.empty()) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);

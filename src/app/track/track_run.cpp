@@ -17,7 +17,8 @@
 #include "app/shared/source_factory.h"
 #include "app/shared/standard_streams.h"
 #include "app/track/track_outputs.h"
-#include "core/available_memory.h"
+#include "core/memory/available_memory.h"
+#include "core/memory/kept_memory.h"
 #include "core/parallel/parallel.h"
 #include "hand/profile_warnings.h"
 #include "io/data_files.h"
@@ -530,6 +531,7 @@ tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, cons
 }
 
 int run_track(const TrackOptions& options) {
+  keep_freed_memory();
   const auto config = configuration(options);
   if (!config) return failed("track", config.error(), kExitUsage);
   if (!options.print_config.empty()) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "hand/grasps/grasp_types.h"
 
 namespace barehand {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 #include "io/overlay/colour_map.h"
 #include "io/ros/ros_hand.h"
 #include "io/web/view_request.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 
 namespace barehand {
 

@@ -1,4 +1,4 @@
-#include "core/frame_memory.h"
+#include "core/memory/frame_memory.h"
 
 namespace barehand {
 

@@ -1,5 +1,5 @@
 // The memory that this process may still use, within the limits of its control groups.
-#include "core/available_memory.h"
+#include "core/memory/available_memory.h"
 
 #include <sys/resource.h>
 
