@@ -45,6 +45,12 @@ DistanceGrid::DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lowe
   });
 }
 
+DistanceGrid::DistanceGrid(const std::function<float(const Vector3f&)>& distance, const Eigen::Vector3d& lower,
+                           const Eigen::Vector3d& upper, double cell)
+    : DistanceGrid(lower, upper, cell) {
+  fill(distance);
+}
+
 DistanceGrid::DistanceGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell)
     : origin_((lower.array() - kMargin).cast<float>()), cell_(cell) {
   const Eigen::Vector3d size = upper - lower + Eigen::Vector3d::Constant(2 * kMargin);

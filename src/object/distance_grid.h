@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "math/mesh_distance.h"
@@ -22,6 +23,9 @@ class DistanceGrid {
 
   /// `lower` and `upper`: the bounding box of the mesh; `cell`: distance of the nodes [m].
   DistanceGrid(const MeshDistance& mesh, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double cell);
+  /// The same of any shape, whose signed distance is a function of the place.
+  DistanceGrid(const std::function<float(const Eigen::Vector3f&)>& distance, const Eigen::Vector3d& lower,
+               const Eigen::Vector3d& upper, double cell);
 
   /// The signed distance of `p`. Outside the grid it is that of the nearest place in it plus the distance to it, an
   /// upper bound.

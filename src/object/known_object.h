@@ -14,7 +14,7 @@ struct SurfaceSample {
   Eigen::Vector3f p, n;
 };
 
-/// An object whose shape is known. Immutable once made.
+/// An object whose shape is known, or was guessed. Immutable once made.
 struct KnownObject {
   std::string name;
   std::int32_t id = 0;                 ///< its ObjectEstimate::id
@@ -34,7 +34,7 @@ KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id);
 /// Samples spread evenly over the surface of a mesh, in random order; the same for every call.
 std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh);
 
-/// Where a known object is in one frame.
+/// Where an object is in one frame.
 struct PosedObject {
   KnownObjectPtr object;
   SE3 T_camera_object;
@@ -42,7 +42,7 @@ struct PosedObject {
   std::int32_t hand_id = -1;                   ///< the hand that holds it; -1: none
 };
 
-/// Where a known object was in an earlier frame, for the tracker of a hand near it.
+/// Where an object was in an earlier frame, for the tracker of a hand near it.
 struct NearbyObject {
   KnownObjectPtr object;
   SE3 T_base_object;            ///< base: the palm with which the object moves, or the camera if it moves with none

@@ -1,5 +1,6 @@
 #include "pipeline/object_feedback.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hand/grasps/holding.h"
@@ -36,6 +37,10 @@ void ObjectPlaces::Motion::add(std::int32_t hand, const Eigen::Vector3d& now_in_
 }
 
 FrameVector<NearbyObject> ObjectPlaces::place(std::span<const PosedObject> objects, const HandEstimates& estimates) {
+  std::erase_if(motions_, [&](const auto& motion) {
+    return std::ranges::none_of(objects, [&](const PosedObject& posed) { return posed.object->id == motion.first; });
+  });
+
   FrameVector<NearbyObject> nearby;
   for (const PosedObject& posed : objects) {
     const double uncertain = deviation(posed);

@@ -11,9 +11,9 @@
 
 namespace barehand {
 
-/// Hands the known objects back from the thread of the sinks, which tracks them, to the tracker of the hands. The
-/// tracker gets in each frame the objects of exactly kLag frames before, whatever the speed of the threads. One thread
-/// calls wait() and next(), another one post().
+/// Hands the objects near the hands back from the thread of the sinks, which tracks them, to the tracker of the hands.
+/// The tracker gets in each frame the objects of exactly kLag frames before, whatever the speed of the threads. One
+/// thread calls wait() and next(), another one post().
 class ObjectFeedback {
  public:
   /// With 2, a tracker of a live run hardly ever waits for the sinks, which then are behind by no more than a frame.
@@ -42,7 +42,7 @@ class ObjectFeedback {
   std::int64_t posted_ = 0;               // of the other thread
 };
 
-/// Places known objects in the palm with which they move, or in the camera frame. Call place() frame after frame.
+/// Places objects in the palm with which they move, or in the camera frame. Call place() frame after frame.
 class ObjectPlaces {
  public:
   /// Objects whose place is known too badly for a hand to rely on are left out.

@@ -53,21 +53,22 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
                                          std::move(inbox), log, pending ? &pending->tracker : nullptr);
   if (initial) tracker->start_at(*initial);
 
-  // Contacts are found if they are requested or if there are known objects to track, which the tracker gets back.
+  // The tracker gets back the objects that are found near the hands, if it couples hands with them. A reload does not
+  // change this. They are found with the contacts, which are published only if they are requested.
   TrackStages stages;
-  // The hands wait for the objects of earlier frames only if they couple with them. A reload does not change this.
   const RefinementParams& refinement = config.tracker.refinement;
-  const bool coupled = refinement.enabled && refinement.objects.enabled && !objects.empty();
+  const bool coupled = refinement.enabled && refinement.objects.enabled;
+  const bool published = config.contact.enabled || !objects.empty();
   const auto feedback = coupled ? std::make_shared<ObjectFeedback>() : nullptr;
-  if (config.contact.enabled || !objects.empty())
+  if (coupled || published)
     stages.contact = [contact = make_contact_stage(config.contact, objects), watch = std::move(watch_objects), feedback,
-                      places = ObjectPlaces()](const HandObservations& observations,
-                                               const HandEstimates& estimates) mutable {
+                      published, places = ObjectPlaces()](const HandObservations& observations,
+                                                          const HandEstimates& estimates) mutable {
       ObjectFeedback::Posting posting{feedback.get()};
       auto contacts = contact->process(observations, estimates);
       if (watch) watch(contact->objects());
-      if (feedback) posting.objects = places.place(contact->known_objects(), estimates);
-      return contacts;
+      if (feedback) posting.objects = places.place(contact->shaped_objects(), estimates);
+      return published ? std::move(contacts) : FrameContactsPtr();
     };
 
   // Grasps are classified if their classifier can be loaded.

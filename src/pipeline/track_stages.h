@@ -23,7 +23,8 @@ namespace barehand {
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
   std::function<Result<HandEstimates>(const HandObservations& observations)> track;
-  /// Empty if the configuration wants no contacts and no object is known.
+  /// Also finds the objects that the tracker gets back, then without contacts if the configuration wants none and no
+  /// object is known. Empty if neither is wanted.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
   /// Empty if the configuration wants no grasps, or the classifier cannot be used, which is logged.
   std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp;
@@ -34,7 +35,7 @@ using ObjectWatcher = std::function<void(std::span<const ObjectTrack> objects)>;
 
 /// `profiles`: one for each hand to track. `initial`: pose from which the first hand is tracked; none: it is searched.
 /// `inbox`: commands from outside; may be empty. `pending`: changed parameters, taken before every frame; may be null.
-/// `objects`: those whose shape is known; if there are any, contacts are found whatever the configuration says.
+/// `objects`: those whose shape is known; if there are any, contacts are stated whatever the configuration says.
 /// `watch_objects`: may be empty.
 /// `workers`, `log` and `pending` must outlive the stages.
 TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profiles& profiles,

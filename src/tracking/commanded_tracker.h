@@ -33,7 +33,7 @@ class CommandedTracker {
   /// Executes commands, then tracks the hands in this frame. Never returns an error: the pipeline requires this type of
   /// every stage.
   Result<HandEstimates> process(const HandObservations& observations);
-  /// Lets the hands couple with the known objects near them (CoupleWith), from the next frame on.
+  /// Lets the hands couple with the objects near them (CoupleWith), from the next frame on.
   void couple_with(std::span<const NearbyObject> objects) { tracker_.couple_with(objects); }
   /// Tracks the first hand from this pose, T_camera_segment, on.
   void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }

@@ -22,7 +22,7 @@ struct TrackerContext {
   std::shared_ptr<spdlog::logger> log;  ///< for messages to the user
   std::shared_ptr<Observer> observer;   ///< compares samples with the data; kept from model to model, may be a GPU
 
-  std::vector<NearbyObject> objects = {};  ///< known objects near this hand, as they were a few frames ago
+  std::vector<NearbyObject> objects = {};  ///< objects near this hand, as they were a few frames ago
 
   /// The observer for other parameters: the present one, unless they ask for another observer.
   std::shared_ptr<Observer> observer_for(const TrackerParams& other) const {

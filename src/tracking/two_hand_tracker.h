@@ -26,7 +26,7 @@ class TwoHandTracker {
   /// Processes one frame. `observations`: one per hand; they are in the order of the profiles if preprocessing had
   /// feedback, and in any order otherwise (see by_hand()). Returns the estimates in the order of the profiles.
   HandEstimates process(const HandObservations& observations);
-  /// Lets every hand couple with the known objects near it (CoupleWith).
+  /// Lets every hand couple with the objects near it (CoupleWith).
   void couple_with(std::span<const NearbyObject> objects);
   int count() const { return static_cast<int>(hands_.size()); }
   /// The tracker of the k-th hand.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/square.h"
+
 namespace barehand {
 namespace {
 
@@ -72,9 +74,11 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     return false;
   });
 
-  // Track the objects, and the known objects among them.
+  // Track the objects, and the known and the round ones among them.
   objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, space_, open_, points_, out->objects);
   find_known(observations, estimates, out->objects);
+  shaped_ = known_;
+  add_round(out->objects);
 
   // Measure the distances of each hand's segments.
   for (std::size_t k = 0; k < estimates.size(); ++k) {
@@ -100,6 +104,18 @@ void ContactStage::find_known(const HandObservations& observations, const HandEs
   std::erase_if(points_, [&](const SurfacePoint& point) {
     return std::ranges::any_of(known_, [&](const PosedObject& known) { return known.object->id == point.object; });
   });
+}
+
+/// Adds the round objects to those that have a shape, without those that turned out to be known ones and so are not
+/// among the `objects`. How badly the far side is known counts as an uncertainty of the place.
+void ContactStage::add_round(const FrameVector<ObjectEstimate>& objects) {
+  for (const ObjectTrack& track : objects_.tracks()) {
+    const ObjectEstimate& state = track.state;
+    if (!track.round || std::ranges::find(objects, state.id, &ObjectEstimate::id) == objects.end()) continue;
+    PosedObject& posed = shaped_.emplace_back();
+    posed = {track.round_object, state.T_camera_object, state.covariance, state.hand_id};
+    posed.covariance.topLeftCorner<3, 3>().diagonal().array() += square(track.round->deviation) / 3;
+  }
 }
 
 /// Measures how far a segment is from the known objects, whose whole surface is known. Nothing changes if none is near.

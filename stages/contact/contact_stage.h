@@ -36,13 +36,15 @@ class ContactStage {
   Result<FrameContactsPtr> process(const HandObservations& observations, const HandEstimates& estimates);
   /// The unknown objects (those for which no mesh was given), as they were in the last frame.
   std::span<const ObjectTrack> objects() const { return objects_.tracks(); }
-  /// The known objects that were seen in the last frame.
-  std::span<const PosedObject> known_objects() const { return known_; }
+  /// Objects whose whole surface is known or guessed, as they were in the last frame: the known ones that were seen,
+  /// and the unknown ones that are round, with the shapes that were fitted to them.
+  std::span<const PosedObject> shaped_objects() const { return shaped_; }
 
  private:
   void touch_objects(const PosedHand& hand, const HandEstimate& estimate, double noise, SegmentContacts& contacts);
   void find_known(const HandObservations& observations, const HandEstimates& estimates,
                   FrameVector<ObjectEstimate>& objects);
+  void add_round(const FrameVector<ObjectEstimate>& objects);
   void touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const;
   void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
@@ -57,7 +59,7 @@ class ContactStage {
   SurfaceDistance distance_;
   std::vector<PosedHand> hands_;  // one per configured hand
   std::vector<SurfacePoint> points_;
-  std::vector<PosedObject> known_;
+  std::vector<PosedObject> known_, shaped_;
   std::vector<bool> open_;
 };
 

@@ -8,6 +8,7 @@ using Eigen::Vector3d, Eigen::Vector3f;
 constexpr int kGrip = 3;                // segments that touch an object which probably moves with the hand
 constexpr double kPreference = 0.0005;  // advantage in misfit with which the less probable motion is preferred [m]
 constexpr double kDoubtful = 0.25;      // contradiction of a pose from which on nothing is added to the model
+constexpr int kShapeEvery = 5;          // frames from one fit of a shape to the model to the next
 constexpr double kPlace = 0.005, kTurn = 1.0;  // deviations of an object without a model [m, rad]
 
 }  // namespace
@@ -74,6 +75,24 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     lower = model.bounds()[0], upper = model.bounds()[1];
   }
   state.extent = (upper - lower).cast<double>();
+  find_shape();
+}
+
+/// Fits a round shape: every few frames to the model, or in each frame to the visible points of an open object, whose
+/// frame moves with them.
+void ObjectTrack::find_shape() {
+  if (open) {
+    const SE3 T_object_camera = state.T_camera_object.inverse();
+    surface_.clear();
+    for (const SurfacePoint* point : points)
+      surface_.push_back({(T_object_camera * point->p.cast<double>()).cast<float>(),
+                          (T_object_camera.R * point->n.cast<double>()).cast<float>()});
+  } else {
+    if (shape_age_++ % kShapeEvery != 0) return;
+    surface_ = model.surface();
+  }
+  round = fit_round_shape(surface_);
+  round_object = round ? make_round_object(*round, state.id) : nullptr;
 }
 
 }  // namespace barehand

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hand/contacts.h"
 #include "hand/grasps/holding.h"
 #include "hand/hand_pose.h"
+#include "object/round_shape.h"
 #include "stages/contact/object_model.h"
 
 namespace barehand {
@@ -23,6 +25,9 @@ struct ObjectTrack {
   int touches = 0;                                   ///< segments that touched it in the last frame
   std::int64_t seen = 0;                             ///< time of the last frame with a part of it [us]
 
+  std::optional<RoundShape> round;  ///< in its frame, if what is known of it is round
+  KnownObjectPtr round_object;      ///< with that shape; null without it
+
   bool modelled() const { return !open && model.has_surface(); }
 
   /// Predicts where the object is: where it was, or where it was in the palm, whichever agrees better with all points
@@ -33,8 +38,11 @@ struct ObjectTrack {
 
  private:
   void place(double elapsed, const ObservedSpace& space);
+  void find_shape();
 
   Holding holding_;
+  std::vector<SurfaceSample> surface_;  // what is known of its surface
+  int shape_age_ = 0;                   // frames since `round` was fitted to the model
 };
 
 }  // namespace barehand

@@ -13,9 +13,9 @@
 
 namespace barehand {
 
-/// Weights of the terms that couple a hand with known objects.
+/// Weights of the terms that couple a hand with the objects whose shape is known or guessed.
 struct ObjectContactParams {
-  bool enabled = true;  ///< has an effect only where known objects are given
+  bool enabled = true;
   double sigma_inside = 0.002;
   double sigma_touch = 0.004;
   double touch_scale = 0.015;
@@ -24,15 +24,16 @@ struct ObjectContactParams {
 
 template <class V>
 void visit(V& v, ObjectContactParams& p) {
-  v("enabled", p.enabled, "keep fingers out of known objects, and draw the hidden tips that hold one to its surface");
+  v("enabled", p.enabled,
+    "keep fingers out of known and of round objects, and close hidden ones on what the hand grips");
   v("sigma_inside", p.sigma_inside, 1e-5, 1.0, "m, standard deviation of the depth of a segment within an object");
   v("sigma_touch", p.sigma_touch, 1e-5, 1.0,
     "m, standard deviation of the distance of a hidden fingertip from the object that its hand holds");
   v("touch_scale", p.touch_scale, 1e-4, 1.0, "m, Geman-McClure scale of that distance");
 }
 
-/// Couples a hand with the known objects near it: its fingers do not enter them, and hidden tips of a hand that grips
-/// an object are drawn to its surface. Immutable once made.
+/// Couples a hand with the objects near it whose shape is known or guessed: its fingers do not enter them, and hidden
+/// tips of a hand that grips an object are drawn to its surface. Immutable once made.
 class ObjectContact {
  public:
   /// `surface`: the skin of the hand.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "support/painted_hand.h"
@@ -158,6 +160,53 @@ TEST_F(KnownWall, AHiddenSegmentRatherTouchesWhatItsHandHolds) {
   const Contact other = touch(0.01, hidden, 2), own = touch(0.01, hidden, 1), seen = touch(0.01, estimate(), 1);
   EXPECT_GT(own.probability, other.probability + 0.1);
   EXPECT_LT(seen.probability, other.probability);
+}
+
+/// A ball beside the hand, which nobody knows.
+class UnknownBall : public Contacts {
+ protected:
+  UnknownBall() {
+    ball_ = test::observe_skin(skin_, pose_, 2);
+    const Intrinsics& camera = ball_->frame->camera;
+    for (int v = 0; v < camera.height; ++v)
+      for (int u = 0; u < camera.width; ++u) {
+        if (ball_->label.at(u, v) == PixelLabel::hand) continue;
+        const Eigen::Vector3d ray = camera.unproject(u, v, 1).normalized();
+        const double along = ray.dot(kMiddle), aside = (along * ray - kMiddle).squaredNorm();
+        if (aside >= kRadius * kRadius) continue;
+        ball_->depth.at(u, v) = static_cast<float>((along - std::sqrt(kRadius * kRadius - aside)) * ray.z());
+        ball_->label.at(u, v) = PixelLabel::object;
+      }
+  }
+  void look(ContactStage& stage) {
+    for (int k = 0; k < 10; ++k)
+      ASSERT_TRUE(stage.process({test::stamped(*ball_, 1'000'000 + 33'000 * k)}, {estimate()}));
+  }
+
+  static constexpr double kRadius = 0.036;
+  const Eigen::Vector3d kMiddle{0.13, 0, 0.5};
+  std::shared_ptr<HandObservation> ball_;
+};
+
+TEST_F(UnknownBall, ARoundObjectHasAShape) {
+  ContactStage stage{{}};
+  look(stage);
+  ASSERT_EQ(stage.shaped_objects().size(), 1u);
+  const PosedObject& ball = stage.shaped_objects()[0];
+  EXPECT_GE(ball.object->id, kFirstUnknownObject);
+  EXPECT_NEAR(ball.object->extent.x(), 2 * kRadius, 0.003);
+  EXPECT_LT((ball.T_camera_object * ball.object->centre - kMiddle).norm(), 0.002);
+}
+
+TEST_F(UnknownBall, AnObjectThatIsAKnownOneIsNotGuessedAsWell) {
+  ContactStage stage({}, [&](const auto&, const auto&, auto&, FrameVector<ObjectEstimate>& objects) {
+    objects.clear();
+    const KnownObjectPtr known = make_known_object(test::ball_mesh(kRadius), 1);
+    return std::vector<PosedObject>{{known, {Eigen::Matrix3d::Identity(), kMiddle}, 1e-8 * Matrix6d::Identity(), -1}};
+  });
+  look(stage);
+  ASSERT_EQ(stage.shaped_objects().size(), 1u);
+  EXPECT_EQ(stage.shaped_objects()[0].object->id, 1);
 }
 
 }  // namespace
