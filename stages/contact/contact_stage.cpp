@@ -85,7 +85,7 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
     if (!tracked(*estimates[k])) continue;
     HandContacts& contacts = out->hands[k];
     touch_objects(hands_[k], *estimates[k], observations[k]->noise, contacts.object);
-    for (int s = 0; s < kSegmentCount; ++s) touch_known(hands_[k], *estimates[k], s, contacts.object[s]);
+    for (int s = 0; s < kSegmentCount; ++s) touch_shaped(hands_[k], *estimates[k], s, contacts.object[s]);
     touch_itself(hands_[k], *estimates[k], contacts.own);
     for (std::size_t other = 0; other < estimates.size(); ++other)
       if (other != k && tracked(*estimates[other])) touch_hand(k, other, estimates, contacts.other_hand);
@@ -118,11 +118,15 @@ void ContactStage::add_round(const FrameVector<ObjectEstimate>& objects) {
   }
 }
 
-/// Measures how far a segment is from the known objects, whose whole surface is known. Nothing changes if none is near.
-void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
+/// Measures how far a segment is from the objects whose whole surface is known, or from a guessed surface if nothing is
+/// seen of the segment. Nothing changes if none is near.
+void ContactStage::touch_shaped(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
   const PosedSkin& skin = hand.skin(s);
   const SegmentState& segment = estimate.segments[s];
-  for (const PosedObject& known : known_) {
+  for (const PosedObject& known : shaped_) {
+    const bool guessed = known.object->id >= kFirstUnknownObject;
+    if (guessed && segment.seen) continue;
+
     // Find the place of the skin that is nearest, or deepest inside.
     const SE3 T_object_camera = known.T_camera_object.inverse();
     const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
@@ -141,6 +145,7 @@ void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estima
     if (!nearest || (contact.state != ContactState::unknown && contact.distance <= least.distance)) continue;
 
     // State the distance.
+    const Contact before = contact;
     contact.normal = known.T_camera_object.R * least.gradient.cast<double>().normalized();
     contact.distance = least.distance;
     contact.point = nearest->cast<double>() - contact.distance * contact.normal;
@@ -153,6 +158,9 @@ void ContactStage::touch_known(const PosedHand& hand, const HandEstimate& estima
     contact.partner = known.object->id;
     const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
     set_state(contact, (params_.touch_distance - contact.distance) / contact.deviation, holds ? kHolds : 1);
+
+    // A guessed shape need not be all of the object: what is apart from it may touch the rest.
+    if (guessed && contact.state != ContactState::touching) contact = before;
   }
 }
 

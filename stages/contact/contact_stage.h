@@ -45,7 +45,7 @@ class ContactStage {
   void find_known(const HandObservations& observations, const HandEstimates& estimates,
                   FrameVector<ObjectEstimate>& objects);
   void add_round(const FrameVector<ObjectEstimate>& objects);
-  void touch_known(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const;
+  void touch_shaped(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const;
   void touch_itself(const PosedHand& hand, const HandEstimate& estimate, SegmentContacts& contacts) const;
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
