@@ -68,7 +68,8 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       auto contacts = contact->process(observations, estimates);
       if (watch) watch(contact->objects());
       if (feedback) posting.objects = places.place(contact->shaped_objects(), estimates);
-      return published ? std::move(contacts) : FrameContactsPtr();
+      if (contacts && !published) contacts->reset();
+      return contacts;
     };
 
   // Grasps are classified if their classifier can be loaded.

@@ -65,6 +65,7 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
     state.covariance.topLeftCorner<3, 3>().diagonal().setConstant(kPlace * kPlace);
     state.covariance.bottomRightCorner<3, 3>().diagonal().setConstant(kTurn * kTurn);
     model = ObjectModel();
+    shape_age_ = 0;
   }
 
   // Add the points to the model. An object that continues out of view has the size of its visible points.

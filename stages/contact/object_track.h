@@ -42,7 +42,7 @@ struct ObjectTrack {
 
   Holding holding_;
   std::vector<SurfaceSample> surface_;  // what is known of its surface
-  int shape_age_ = 0;                   // frames since `round` was fitted to the model
+  int shape_age_ = 0;                   // frames since `round` was first fitted to the model
 };
 
 }  // namespace barehand
