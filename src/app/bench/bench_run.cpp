@@ -148,7 +148,6 @@ void measure_observers(const std::vector<NamedCase>& cases, BenchReport& report,
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
-  keep_freed_memory();  // as `track` does
   if (const auto free = check_written(options); !free) return failed("bench", free.error(), kExitUsage);
   if (!options.draw.empty()) {
     const auto drawn = draw_bench(options.draw, options.plots.empty() ? "." : options.plots);
@@ -156,6 +155,7 @@ int run_bench(const BenchOptions& options) {
   }
 
   // Check everything before the measurement starts.
+  keep_freed_memory();  // as `track` does
   const auto cases = cases_of(options);
   if (!cases) return failed("bench", cases.error(), kExitUsage);
   const auto input = read_input(options);

@@ -531,7 +531,6 @@ tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, cons
 }
 
 int run_track(const TrackOptions& options) {
-  keep_freed_memory();
   const auto config = configuration(options);
   if (!config) return failed("track", config.error(), kExitUsage);
   if (!options.print_config.empty()) {
@@ -540,6 +539,8 @@ int run_track(const TrackOptions& options) {
   }
   if (options.source.empty())
     return failed("track", {"no --source", "", "give folder:DIR, log:FILE, lcm, openni2 or sim:NAME"}, kExitUsage);
+  keep_freed_memory();
+
   // In a terminal, SIGHUP means that the terminal was closed. Without one, it reloads the configuration.
   const bool daemon = isatty(STDIN_FILENO) == 0;
   const auto reread = [&]() -> Result<Config> {
