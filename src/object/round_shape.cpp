@@ -130,7 +130,7 @@ class Fit {
       seen_ += weight * direction;
       weights += weight;
     }
-    if (weights < kLeastOn * static_cast<double>(std::min(surface_.size(), kLeastSamples))) return false;
+    if (weights < kLeastOn * kLeastSamples) return false;
 
     // Solve for the step.
     const double information = std::min(1.0, kIndependent / weights) / square(kDeviation);
@@ -204,9 +204,10 @@ std::optional<RoundShape> fit_round_shape(std::span<const SurfaceSample> surface
     for (const bool cylinder : {false, true}) {
       Fit fit(surface, cylinder, hollow);
       const auto shape = fit.run();
-      if (!shape || fit.share() < most + (cylinder ? kSimpler : 0)) continue;
+      const double share = fit.share();
+      if (!shape || share < most + (cylinder ? kSimpler : 0)) continue;
       best = shape;
-      most = fit.share();
+      most = share;
     }
   return best;
 }

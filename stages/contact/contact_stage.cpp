@@ -77,7 +77,6 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   // Track the objects, and the known and the round ones among them.
   objects_.process(estimates.empty() ? 0 : estimates[0]->utime, estimates, space_, open_, points_, out->objects);
   find_known(observations, estimates, out->objects);
-  shaped_ = known_;
   add_round(out->objects);
 
   // Measure the distances of each hand's segments.
@@ -96,13 +95,15 @@ Result<FrameContactsPtr> ContactStage::process(const HandObservations& observati
   return out;
 }
 
-/// Finds the known objects. Their meshes replace the points that were seen of them.
+/// Finds the known objects, the first of those that have a shape. Their meshes replace the points that were seen of
+/// them.
 void ContactStage::find_known(const HandObservations& observations, const HandEstimates& estimates,
                               FrameVector<ObjectEstimate>& objects) {
+  shaped_.clear();
   if (!find_known_) return;
-  known_ = find_known_(observations, estimates, points_, objects);
+  shaped_ = find_known_(observations, estimates, points_, objects);
   std::erase_if(points_, [&](const SurfacePoint& point) {
-    return std::ranges::any_of(known_, [&](const PosedObject& known) { return known.object->id == point.object; });
+    return std::ranges::any_of(shaped_, [&](const PosedObject& known) { return known.object->id == point.object; });
   });
 }
 
@@ -123,21 +124,21 @@ void ContactStage::add_round(const FrameVector<ObjectEstimate>& objects) {
 void ContactStage::touch_shaped(const PosedHand& hand, const HandEstimate& estimate, int s, Contact& contact) const {
   const PosedSkin& skin = hand.skin(s);
   const SegmentState& segment = estimate.segments[s];
-  for (const PosedObject& known : shaped_) {
-    const bool guessed = known.object->id >= kFirstUnknownObject;
+  for (const PosedObject& shaped : shaped_) {
+    const bool guessed = shaped.object->id >= kFirstUnknownObject;
     if (guessed && segment.seen) continue;
 
     // Find the place of the skin that is nearest, or deepest inside.
-    const SE3 T_object_camera = known.T_camera_object.inverse();
+    const SE3 T_object_camera = shaped.T_camera_object.inverse();
     const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
     const Vector3f t = T_object_camera.t.cast<float>();
     DistanceGrid::Sample least{SurfaceDistance::kReach, Vector3f::Zero()};
-    if (known.object->grid.distance(R * skin.centre + t) > skin.radius + SurfaceDistance::kReach) continue;
+    if (shaped.object->grid.distance(R * skin.centre + t) > skin.radius + SurfaceDistance::kReach) continue;
 
     // Sample the distance grid of the object at every point of the skin.
     const Vector3f* nearest = nullptr;
     for (const Vector3f& p : skin.points) {
-      const DistanceGrid::Sample sample = known.object->grid.sample(R * p + t);
+      const DistanceGrid::Sample sample = shaped.object->grid.sample(R * p + t);
       if (sample.distance >= least.distance) continue;
       least = sample;
       nearest = &p;
@@ -145,22 +146,22 @@ void ContactStage::touch_shaped(const PosedHand& hand, const HandEstimate& estim
     if (!nearest || (contact.state != ContactState::unknown && contact.distance <= least.distance)) continue;
 
     // State the distance.
-    const Contact before = contact;
-    contact.normal = known.T_camera_object.R * least.gradient.cast<double>().normalized();
-    contact.distance = least.distance;
-    contact.point = nearest->cast<double>() - contact.distance * contact.normal;
-    contact.deviation = std::sqrt(variance(segment, contact.point, contact.normal) +
-                                  variance(known.T_camera_object, known.covariance, contact.point, contact.normal) +
-                                  kSkinDeviation * kSkinDeviation);
+    Contact found = contact;
+    found.normal = shaped.T_camera_object.R * least.gradient.cast<double>().normalized();
+    found.distance = least.distance;
+    found.point = nearest->cast<double>() - found.distance * found.normal;
+    found.deviation = std::sqrt(variance(segment, found.point, found.normal) +
+                                variance(shaped.T_camera_object, shaped.covariance, found.point, found.normal) +
+                                kSkinDeviation * kSkinDeviation);
 
-    // An unseen fingertip counts as more likely to touch the known object that its hand holds.
-    contact.inferred = !segment.seen;
-    contact.partner = known.object->id;
-    const bool holds = is_tip(s) && contact.inferred && known.hand_id == estimate.hand_id;
-    set_state(contact, (params_.touch_distance - contact.distance) / contact.deviation, holds ? kHolds : 1);
+    // An unseen fingertip counts as more likely to touch the object that its hand holds.
+    found.inferred = !segment.seen;
+    found.partner = shaped.object->id;
+    const bool holds = is_tip(s) && found.inferred && shaped.hand_id == estimate.hand_id;
+    set_state(found, (params_.touch_distance - found.distance) / found.deviation, holds ? kHolds : 1);
 
     // A guessed shape need not be all of the object: what is apart from it may touch the rest.
-    if (guessed && contact.state != ContactState::touching) contact = before;
+    if (!guessed || found.state == ContactState::touching) contact = found;
   }
 }
 

@@ -59,7 +59,7 @@ class ContactStage {
   SurfaceDistance distance_;
   std::vector<PosedHand> hands_;  // one per configured hand
   std::vector<SurfacePoint> points_;
-  std::vector<PosedObject> known_, shaped_;
+  std::vector<PosedObject> shaped_;
   std::vector<bool> open_;
 };
 
