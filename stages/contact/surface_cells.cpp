@@ -1,5 +1,6 @@
 #include "stages/contact/surface_cells.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +13,9 @@ constexpr float kSpacing = 0.0035f;    // size of a cell [m]
 constexpr float kStep = 0.008f;        // largest difference in depth of neighbouring cells of one surface [m]
 constexpr float kSurroundings = 0.2f;  // radius around the middle of the hand in which surfaces are observed [m]
 constexpr float kCrease = 0.35f;       // normals that converge by more than this from cell to cell show a crease
-constexpr int kWindow = 2;             // cells to each side that a plane is fitted to
-constexpr int kFewest = 6;             // cells that a plane needs
+constexpr int kWindow = 2;             // cells to each side that a surface is fitted to
+constexpr int kFewest = 6;             // cells that a surface needs
+constexpr float kFlat = 0.005f, kStraight = 0.05f;  // weights of the priors of no slope and no curvature, for each cell
 constexpr std::int32_t kOther = -1, kSeed = -2;
 
 /// Whether a point belongs to the forearm, which is not tracked: behind the wrist, within a cone that an arm reaches.
@@ -41,7 +43,7 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
                            std::vector<bool>& open) {
   const auto first = static_cast<std::int32_t>(open.size());
   fill_cells(observations, *estimates[k], k, on_skin);
-  fit_planes();
+  fit_surfaces();
   grow(open);
 
   // Add the cells of the new components to the points.
@@ -79,6 +81,7 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
 
   // Choose the spacing of the grid by the distance of the palm.
   step_ = std::max(1, static_cast<int>(std::lround(kSpacing * seen.frame->camera.fx / z_palm)));
+  spacing_ = static_cast<float>(step_ / seen.frame->camera.fx);
   place_.reset(seen.depth.width() / step_, seen.depth.height() / step_, Vector3f::Zero());
   component_.reset(place_.width(), place_.height(), kOther);
   beyond_.reset(place_.width(), place_.height(), 0);
@@ -109,8 +112,8 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
     }
 }
 
-/// Fits a plane z = a + b x + c y to the cells around each cell, those of other surfaces left out.
-void SurfaceCells::fit_planes() {
+/// Fits the surface of every cell.
+void SurfaceCells::fit_surfaces() {
   SurfacePoint point;
   fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
   normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
@@ -122,39 +125,36 @@ void SurfaceCells::fit_planes() {
     }
 }
 
+/// Fits z = a + b x + c y + d x^2 + e x y + f y^2 to the cells around a cell, those of other surfaces left out. A plane
+/// would lie within a ball in its middle and outside of it at its rim, where the window sees one side only.
 bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
+  // Add up the normal equations, in units of half the window's side from the centre.
   const Vector3f centre = place_.at(c, r);
+  const float unit = kWindow * spacing_ * centre.z();
   int count = 0;
-  Vector3f mean = Vector3f::Zero();
-  float xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
-
-  // Add up the moments relative to the centre.
+  Eigen::Matrix<float, 6, 6> A = Eigen::Matrix<float, 6, 6>::Zero();
+  Eigen::Matrix<float, 6, 1> g = Eigen::Matrix<float, 6, 1>::Zero(), row;
   for (int y = std::max(0, r - kWindow); y <= std::min(place_.height() - 1, r + kWindow); ++y)
     for (int x = std::max(0, c - kWindow); x <= std::min(place_.width() - 1, c + kWindow); ++x) {
       const Vector3f& p = place_.at(x, y);
       if (p.z() <= 0 || std::abs(p.z() - centre.z()) > kStep * kWindow) continue;
       const Vector3f d = p - centre;
+      const float u = d.x() / unit, v = d.y() / unit;
+      row << 1, u, v, u * u, u * v, v * v;
+      A += row * row.transpose();
+      g += d.z() * row;
       ++count;
-      mean += d;
-      xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y(), xz += d.x() * d.z(), yz += d.y() * d.z();
     }
   if (count < kFewest) return false;
 
-  // Solve for the slopes; a narrow strip has none across itself.
-  mean /= static_cast<float>(count);
-  const float n = static_cast<float>(count), weak = 0.01f * (xx + yy);
-  xx += weak - n * mean.x() * mean.x(), yy += weak - n * mean.y() * mean.y(), xy -= n * mean.x() * mean.y();
-  xz -= n * mean.x() * mean.z(), yz -= n * mean.y() * mean.z();
+  // Solve, with weak priors: a narrow strip shows no slope across itself, and few cells show no curvature.
+  A.diagonal().segment<2>(1).array() += kFlat * static_cast<float>(count);
+  A.diagonal().tail<3>().array() += kStraight * static_cast<float>(count);
+  const Eigen::Matrix<float, 6, 1> surface = A.llt().solve(g);
 
-  // Compute both slopes, unless the points lie on one line.
-  const float determinant = xx * yy - xy * xy;
-  if (!(determinant > 0)) return false;
-  const float b = (yy * xz - xy * yz) / determinant, s = (xx * yz - xy * xz) / determinant;
-
-  // State the point on the plane and the normal that faces the camera.
-  point.p = centre;
-  point.p.z() += mean.z() - b * mean.x() - s * mean.y();
-  point.n = Vector3f(b, s, -1).normalized();
+  // State the point on the surface and the normal that faces the camera.
+  point.p = centre + Vector3f(0, 0, surface[0]);
+  point.n = Vector3f(surface[1] / unit, surface[2] / unit, -1).normalized();
   if (point.n.dot(point.p) > 0) point.n = -point.n;
   return true;
 }
