@@ -154,7 +154,7 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
 }
 
 double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
-                       const std::array<double, kSegmentCount>& seen, const HandPose& pose, const EnergyParams& params,
+                       const std::array<double, kSegmentCount>& free, const HandPose& pose, const EnergyParams& params,
                        GaussianTree& tree) {
   // Pull the palm to its predicted pose in the camera frame.
   Vector6d information;
@@ -169,7 +169,7 @@ double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
     // An unseen joint is held more firmly than a seen one.
     const double unseen_information = 1 / square(params.prior_unseen_deg * kDegree);
     const double seen_information = 1 / square(params.prior_rotation_deg * kDegree);
-    const double w = seen[s] * seen_information + (1 - seen[s]) * unseen_information;
+    const double w = free[s] * seen_information + (1 - free[s]) * unseen_information;
     const JointLinearisation joint = linearise_joint(profile, pose, s);
     // Compute the rotation from the predicted joint angles to the current ones.
     const JointLinearisation aim = linearise_joint(profile, predicted, s);

@@ -24,9 +24,6 @@ constexpr int kContactPoints = 60;          // points of each segment's skin tha
 constexpr double kCoarseCell = 0.006;       // cell size of the coarse skin [m]
 constexpr std::size_t kManyPixels = 10000;  // for a hand with more pixels, a coarse comparison uses every other cell
 
-// A segment may freely leave its prediction if at least this fraction of its skin matches data.
-constexpr double kFree = 0.4;
-
 // If less than this fraction of a segment's skin matches data, the skin that blends the segment with a neighbour at a
 // joint moves the segment less (not at all if nothing matches) and the neighbour more.
 constexpr double kShown = 0.1;
@@ -34,17 +31,21 @@ constexpr double kFolds = 4;  // DataWeighting::folds for skin that was not scan
 
 using Shares = std::array<double, kSegmentCount>;
 
-// The matched fraction of each segment relative to `enough`, clamped to [0, 1].
-Shares towards(double enough, const RefinedPose& pose) {
-  Shares share;
-  for (int s = 0; s < kSegmentCount; ++s) share[s] = std::clamp(pose.matched[s] / enough, 0.0, 1.0);
-  return share;
+// How freely each segment may leave its prediction, from 0 to 1: as far as its skin matches data, and as far as data
+// beside it is explained by nothing. Noise would turn a segment of which a sliver is seen.
+Shares freedom(const ModelComparison& comparison, const RenderedHand& rendered) {
+  Shares free;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const double cells = comparison.matched[s] + comparison.unexplained[s];
+    free[s] = std::min(1.0, cells / std::max(1, rendered.projected[s]));
+  }
+  return free;
 }
 
-// How hidden each segment is that is seen to the degree `seen`.
-Shares hidden_of(const Shares& seen) {
+// How hidden each segment is.
+Shares hidden_of(const RefinedPose& pose) {
   Shares hidden;
-  std::ranges::transform(seen, hidden.begin(), [](double share) { return 1 - share; });
+  std::ranges::transform(pose.matched, hidden.begin(), [](double share) { return 1 - share; });
   return hidden;
 }
 
@@ -83,7 +84,7 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
   }
 }
 
-bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen,
+bool Refinement::step(const HandPose& predicted, const std::array<double, kSegmentCount>& free,
                       const DataWeighting& weighting, const Skin& skin, std::span<const NearbyObject> objects,
                       Workspace& work, RefinedPose& refined) const {
   HandPose& pose = refined.pose;
@@ -97,10 +98,10 @@ bool Refinement::step(const HandPose& predicted, const std::array<double, kSegme
   add_joint_terms(*profile_, limits_, pose, params_.energy, tree);
   contact_.add_terms(pose, params_.energy.sigma_overlap, tree);
   if (!objects.empty()) {
-    const auto rests = object_contact_.add_terms(pose, objects, hidden_of(seen), tree).rests;
+    const auto rests = object_contact_.add_terms(pose, objects, hidden_of(refined), tree).rests;
     for (int finger = 0; finger < kFingerCount; ++finger) refined.holds[finger].rests = rests[finger];
   }
-  add_prior_terms(*profile_, predicted, seen, pose, params_.energy, tree);
+  add_prior_terms(*profile_, predicted, free, pose, params_.energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) {
     tree.H_self[s].diagonal() *= 1 + params_.damping;
     tree.H_self[s].diagonal().array() += 1e-3;  // negligible, but keeps the step finite in unconstrained directions
@@ -162,9 +163,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   }
   summarise(*work, result);
 
-  // Compute how much of each segment is seen at the start pose: the more is seen, the more freely it may leave its
-  // prediction.
-  const Shares seen = towards(kFree, result), shown = towards(kShown, result);
+  const Shares free = freedom(work->comparison, work->rendered);
 
   const bool measured = profile_->origin == ProfileOrigin::measured;
 
@@ -172,7 +171,7 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
   const bool folds_known = profile_->scanned_skin != nullptr;
   DataWeighting weighting;
   if (!folds_known)
-    for (int s = 0; s < kSegmentCount; ++s) weighting.hidden[s] = 1 - shown[s];
+    for (int s = 0; s < kSegmentCount; ++s) weighting.hidden[s] = std::max(0.0, 1 - result.matched[s] / kShown);
 
   // Take Gauss-Newton steps with gates and robust scales that shrink from step to step.
   for (int i = 0; i < iterations; ++i) {
@@ -184,15 +183,14 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     weighting.tangential = measured ? std::clamp(weighting.widening - 1, 0.0, 1.0) : 1;
     weighting.folds = is_fine(i) && !folds_known ? kFolds : 0;  // wrong folds disturb only the fine steps
 
-    if (!step(predicted, seen, weighting, detail(i).skin, objects, *work, result)) break;
+    if (!step(predicted, free, weighting, detail(i).skin, objects, *work, result)) break;
     compare_at(observation, result.pose, detail(i + 1), i + 1 < iterations ? Normals::computed : Normals::left_out,
                *work);
   }
 
   summarise(*work, result);
   if (!objects.empty()) {
-    const auto closed =
-        object_contact_.closed(*profile_, limits_, result.pose, objects, hidden_of(towards(kFree, result)));
+    const auto closed = object_contact_.closed(*profile_, limits_, result.pose, objects, hidden_of(result));
     for (int finger = 0; finger < kFingerCount; ++finger) result.holds[finger].closed = closed[finger];
   }
   return result;
@@ -204,8 +202,6 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   compare_at(observation, pose, fine(), Normals::computed, *work);
 
   // Weight the data for fitting the shape instead of tracking.
-  RefinedPose summary;
-  summarise(*work, summary);
   equations.set_zero();
   GaussianTree& tree = equations.tree;
   EnergyParams energy = params_.energy;
@@ -218,7 +214,7 @@ void Refinement::shape_equations(const HandObservation& observation, const HandP
   add_data_terms(*skin_, pose, work->comparison, energy, {}, tree, &moments);
   add_joint_terms(*profile_, limits_, pose, energy, tree);
   contact_.add_terms(pose, energy.sigma_overlap, tree);
-  add_prior_terms(*profile_, pose, towards(kFree, summary), pose, energy, tree);
+  add_prior_terms(*profile_, pose, freedom(work->comparison, work->rendered), pose, energy, tree);
   for (int s = 0; s < kSegmentCount; ++s) tree.H_self[s].diagonal().array() += 1e-3;
 
   // Couple the pose with the shape.

@@ -93,9 +93,9 @@ class Refinement {
                   Workspace& work) const;
   // Copies the score and the visible and matched fractions of the segments to `result`.
   void summarise(const Workspace& work, RefinedPose& result) const;
-  // One Gauss-Newton step on `refined.pose`. `seen`: as in add_prior_terms(). Returns false if the normal equations
+  // One Gauss-Newton step on `refined.pose`. `free`: as in add_prior_terms(). Returns false if the normal equations
   // cannot be solved.
-  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& seen, const DataWeighting& weighting,
+  bool step(const HandPose& predicted, const std::array<double, kSegmentCount>& free, const DataWeighting& weighting,
             const Skin& skin, std::span<const NearbyObject> objects, Workspace& work, RefinedPose& refined) const;
 
   RefinementParams params_;

@@ -41,6 +41,7 @@ class Comparer {
     out_.correspondences.clear();
     out_.visible.fill(0);
     out_.matched.fill(0);
+    out_.unexplained.fill(0);
     out_.rays.reset(obs_.frame->camera, obs_.u0, obs_.v0, obs_.depth.width(), obs_.depth.height());
     out_.nearest_model.index(rendered_.vertex);
 
@@ -172,6 +173,7 @@ class Comparer {
     const std::int32_t nearest = out_.nearest_model.find(i, j);
     if (nearest < 0) return;
     const int mi = nearest % rendered_.grid.width, mj = nearest / rendered_.grid.width;
+    ++out_.unexplained[skin_.vertices[rendered_.vertex.at(mi, mj)].a];
     add(Kind::unexplained, mi, mj, data, (data - model_point(mi, mj)).norm());
   }
 

@@ -57,10 +57,11 @@ struct Correspondence {
 struct ModelComparison {
   std::vector<Correspondence> correspondences;
   double score = 0;  ///< mean capped distance over all evidence [m], lower is better; the cap if there is no evidence
-  std::array<int, kSegmentCount> visible{};  ///< cells where a segment is front-most and not hidden by an object
-  std::array<int, kSegmentCount> matched{};  ///< `visible` cells with hand data near the model
-  NearestCell nearest_model;                 ///< scratch: look-up of the nearest cell of the rendered hand
-  PixelRays rays;                            ///< scratch: points of the observed pixels
+  std::array<int, kSegmentCount> visible{};      ///< cells where a segment is front-most and not hidden by an object
+  std::array<int, kSegmentCount> matched{};      ///< `visible` cells with hand data near the model
+  std::array<int, kSegmentCount> unexplained{};  ///< cells with hand data that no skin explains, nearest to a segment
+  NearestCell nearest_model;                     ///< scratch: look-up of the nearest cell of the rendered hand
+  PixelRays rays;                                ///< scratch: points of the observed pixels
 };
 
 /// The grid of every `stride`-th pixel that covers the whole region of interest.
