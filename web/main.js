@@ -12,8 +12,8 @@ const byId = (id) => document.getElementById(id);
 const kPictures = ["colour", "depth", "none"], kClouds = ["hand", "scene", "none"];
 const kSlowFrameMs = 3000;  // time without a frame after which the page reports it
 const kHintMs = 10000;      // how long the answer to a button is shown
-const kNoContacts = "Nothing tells what the hand touches, because contacts are off in the tracker. Start it with " +
-  "contact.enabled: true in its configuration (--config FILE), or with a known object (--object FILE).";
+const kNoContacts = "Nothing tells what the hand touches, because contacts are off in the tracker: its " +
+  "configuration needs contact.enabled: true.";
 
 const state = {view: "follow", cloud: "hand", ellipsoids: false, touches: true, smoothed: false, floor: true, freeze: false, picture: "colour", plot: "joints"};
 const plots = new Plots(byId("plots")), picture = new Picture(byId("picture"), byId("no_picture")), meter = new Meter();

@@ -4,7 +4,7 @@ namespace barehand {
 
 /// Parameters of the contact stage.
 struct ContactParams {
-  bool enabled = false;
+  bool enabled = true;
   double touch_distance = 0.005;
   double near_distance = 0.02;
   bool operator==(const ContactParams&) const = default;

@@ -245,13 +245,6 @@ class Live(Page):
             self.press(key, expected)
         self.until(lambda: self.shares()[1] < 0.8 * ground, "the whole scene covers more of the view")
 
-    def test_the_button_for_contacts_is_not_pressed_while_they_are_off(self):
-        self.open_with_hand(self.program)
-        contacts = pressed("toggle", "touches")
-        self.assertFalse(self.browser.value(contacts))
-        self.press("k", f"!{hidden('notice')} && {text('notice')}.includes('contact.enabled: true')")
-        self.assertFalse(self.browser.value(contacts))
-
     def test_a_frozen_page_stands_still(self):
         self.open_with_hand(self.program)
         self.wait_for_hand()
@@ -352,14 +345,21 @@ class Trouble(Page):
 
 class Contacts(Page):
     def test_the_button_shows_and_hides_them(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        config = pathlib.Path(folder.name, "contacts.yaml")
-        config.write_text("contact:\n  enabled: true\n")
-        self.open_with_hand(self.track(HAND, "--config", str(config)))
+        self.open_with_hand(self.track(HAND))
         self.wait_for(pressed("toggle", "touches"))
         self.press("k", "!(" + pressed("toggle", "touches") + ")")
         self.press("k", pressed("toggle", "touches"))
+
+    def test_the_button_is_not_pressed_while_they_are_off(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        config = pathlib.Path(folder.name, "no_contacts.yaml")
+        config.write_text("contact:\n  enabled: false\n")
+        self.open_with_hand(self.track(HAND, "--config", str(config)))
+        contacts = pressed("toggle", "touches")
+        self.assertFalse(self.browser.value(contacts))
+        self.press("k", f"!{hidden('notice')} && {text('notice')}.includes('contact.enabled: true')")
+        self.assertFalse(self.browser.value(contacts))
 
 
 class Log(Page):

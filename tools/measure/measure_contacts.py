@@ -34,8 +34,8 @@ def prepare(barehand, out, sequence):
             "--out", folder)
         open(simulated, "w").close()
     if not os.path.exists(tracked):
-        run(barehand, "track", "--source", "folder:" + folder, "--config", os.path.join(out, "contacts.yaml"),
-            "--no-publish", "--threads", "1", "--states-log", log, "--overwrite")
+        run(barehand, "track", "--source", "folder:" + folder, "--no-publish", "--threads", "1", "--states-log", log,
+            "--overwrite")
         open(tracked, "w").close()
     return folder
 
@@ -58,8 +58,6 @@ def row(name, figures):
 
 def main(barehand, out, *sequences):
     os.makedirs(out, exist_ok=True)
-    with open(os.path.join(out, "contacts.yaml"), "w") as config:
-        config.write("contact:\n  enabled: true\n")
     print("| sequence | visible fingertips | in part | hidden |\n|---|---|---|---|")
     for title, group in ((("given", sequences),) if sequences else (("first grasps", FIRST), ("other grasps", OTHERS),
                                                                  ("older ones", OLDER))):
