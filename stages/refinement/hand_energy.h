@@ -90,8 +90,8 @@ double add_joint_terms(const HandProfile& profile, const std::array<JointLimits,
                        const HandPose& pose, const EnergyParams& params, GaussianTree& tree);
 
 /// Weak pull to the predicted pose: the palm in the camera frame, every joint relative to its parent. `free[s]` in
-/// [0, 1] blends the information of joint s from that of an unseen (0) to that of a fully seen joint (1). Adds to `tree`;
-/// returns the energy.
+/// [0, 1] blends the information of joint s from that of an unseen (0) to that of a fully seen joint (1). Adds to
+/// `tree`; returns the energy.
 double add_prior_terms(const HandProfile& profile, const HandPose& predicted,
                        const std::array<double, kSegmentCount>& free, const HandPose& pose, const EnergyParams& params,
                        GaussianTree& tree);
