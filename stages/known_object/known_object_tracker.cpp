@@ -21,6 +21,7 @@ constexpr double kOutlier = 4.0 / 6;  // of a point that a pose does not explain
 constexpr int kTrial = 30;            // frames in which several hypotheses are compared
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
+constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was found to the next search [us]
 // Least time from one search to the next, at first and once they have been in vain for kVain [us].
 constexpr std::int64_t kSearchEvery = 60'000, kSearchRarely = 120'000, kVain = 2'000'000;
 constexpr double kLongestStep = 0.2;  // frames farther apart than this have nothing to do with each other [s]
@@ -167,9 +168,30 @@ bool KnownObjectTracker::find(std::int64_t utime, const ObservedDepth& view, con
   if (found.empty()) return false;
   hypotheses_.clear();
   compared_ = searches_ = 0;
+  found_ = utime;
+  look_ = kFirstLook;
   for (const FoundPose& pose : found)
     hypotheses_.push_back({.T = pose.T_camera_object, .covariance = diagonal(kFreeShift, kFreeTurn)});
   return true;
+}
+
+/// Searches where the object is followed, and follows what is found there as well.
+void KnownObjectTracker::look_again(std::int64_t utime, const ObservedDepth& view, std::span<const Vector3f> points) {
+  if (std::abs(utime - found_) < look_) return;
+  look_ *= 2;
+  const Vector3f middle = (hypotheses_.front().T * object_->centre).cast<float>();
+  const Vector6d velocity = hypotheses_.front().velocity;
+  for (const FoundPose& pose : search_.search(*object_, view, points, middle)) {
+    const auto same = [&](const Hypothesis& other) {
+      return changes_little(*object_, other.T.inverse() * pose.T_camera_object);
+    };
+    if (std::ranges::any_of(hypotheses_, same)) continue;
+    hypotheses_.push_back({pose.T_camera_object, velocity, diagonal(kFreeShift, kFreeTurn)});
+
+    // All are compared on the same frames.
+    compared_ = 0;
+    for (Hypothesis& hypothesis : hypotheses_) hypothesis.misfit = 0;
+  }
 }
 
 void KnownObjectTracker::store_palms(std::int64_t utime, const HandEstimates& estimates) {
@@ -192,6 +214,7 @@ std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, co
   bool seen = !hypotheses_.empty() && follow(std::abs(dt), view, estimates, points);
   const bool found = !seen && find(utime, view, estimates, points);
   if (found) seen = follow(0, view, {}, points);
+  if (seen) look_again(utime, view, points);
   store_palms(utime, estimates);
   if (!seen) return std::nullopt;
   seen_ = utime;

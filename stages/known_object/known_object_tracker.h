@@ -17,7 +17,8 @@ namespace barehand {
 /// Tracks one known object. The pose is predicted from its velocity and from the palms, and refined on the depth near
 /// the prediction; since the refinement starts from there, a symmetric object does not jump. When the fit is bad or too
 /// little shows, there is no pose, and the object is searched for at intervals. Where a search finds several poses,
-/// all are followed, until the frames have shown which one is right.
+/// all are followed, until the frames have shown which one is right. While it is followed, searches more and more
+/// seldom look whether another pose explains it better, for little may have been seen when it was found.
 class KnownObjectTracker {
  public:
   explicit KnownObjectTracker(KnownObjectPtr object) : object_(std::move(object)) {}
@@ -49,6 +50,7 @@ class KnownObjectTracker {
   void compare(const ObservedDepth& view);
   bool find(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
             std::span<const Eigen::Vector3f> points);
+  void look_again(std::int64_t utime, const ObservedDepth& view, std::span<const Eigen::Vector3f> points);
   void store_palms(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;
@@ -59,6 +61,7 @@ class KnownObjectTracker {
   std::map<std::int32_t, SE3> palms_;  // T_camera_palm of every hand in the frame before
   std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
   int compared_ = 0;                   // frames in which the hypotheses were compared
+  std::int64_t found_ = 0, look_ = 0;  // time at which it was found, and how long after that it is searched again [us]
   int searches_ = 0;                   // searches since it was found last
   std::int64_t first_search_ = 0, last_search_ = 0;  // times of the first and the last of them [us]
   std::vector<Eigen::Vector3f> points_;

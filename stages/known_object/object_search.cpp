@@ -51,7 +51,8 @@ PosePrior anywhere_near(const SE3& T) {
   return prior;
 }
 
-/// Whether a motion is a small turn, or leaves the surface where it is, as a turn of a bottle about its axis does.
+}  // namespace
+
 bool changes_little(const KnownObject& object, const SE3& T_object_object) {
   if (log_so3(T_object_object.R).norm() < kSmallTurn) return true;
   const Eigen::Matrix3f R = T_object_object.R.cast<float>();
@@ -61,8 +62,6 @@ bool changes_little(const KnownObject& object, const SE3& T_object_object) {
       samples, [&](const SurfaceSample& sample) { return std::abs(object.grid.distance(R * sample.p + t)) > kMoved; });
   return static_cast<double>(moved) < kFewMoved * static_cast<double>(samples.size());
 }
-
-}  // namespace
 
 bool PoseQuality::acceptable() const {
   return visibility.shown() >= kLeastShownAtStart && visibility.seen >= kLeastSeen &&

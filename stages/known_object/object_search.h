@@ -46,6 +46,9 @@ class ObjectSearch {
   std::vector<FoundPose> found_;
 };
 
+/// Whether a motion is a small turn, or leaves the surface where it is, as a turn of a bottle about its axis does.
+bool changes_little(const KnownObject& object, const SE3& T_object_object);
+
 /// The quality of a pose. `points`: of everything that may be the object.
 PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, const SE3& T_camera_object,
                        std::span<const Eigen::Vector3f> points);

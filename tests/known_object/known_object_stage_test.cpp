@@ -145,6 +145,24 @@ TEST_F(KnownObjects, AreStatedRightlyAsSoonAsTheFramesShowWhichPoseIsRight) {
     }
 }
 
+TEST_F(KnownObjects, ThatWereFollowedWronglyForLongAreLookedAtAgain) {
+  look_for(test::box_with_knob());
+  for (const bool above : {false, true}) {
+    // The knob is hidden for so long that only one pose is followed.
+    stage_.emplace(std::vector<KnownObjectPtr>{object_});
+    scene_.T_camera_object = test::knob_right(0, above);
+    scene_.covered_from = test::kKnob;
+    for (int i = 0; i < 40; ++i) next();
+
+    // Two seconds after it was found it is searched again.
+    scene_.covered_from = 200;
+    std::optional<ObjectEstimate> state;
+    for (int i = 0; i < 30; ++i) state = next();
+    ASSERT_TRUE(state);
+    EXPECT_LT(turn(*state), 3 * kDegree) << (above ? "above" : "below");
+  }
+}
+
 TEST_F(KnownObjects, AreLostBehindAHandAndFoundAgain) {
   look_for(test::hammer_mesh());
   while (!next() && utime_ < 2'000'000) continue;
