@@ -54,7 +54,7 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   if (initial) tracker->start_at(*initial);
 
   // The tracker gets back the objects that are found near the hands, if it couples hands with them. A reload does not
-  // change this. They are found with the contacts, which are published only if they are requested.
+  // change this. They are found with the contacts, which need not be published.
   TrackStages stages;
   const RefinementParams& refinement = config.tracker.refinement;
   const bool coupled = refinement.enabled && refinement.objects.enabled;

@@ -167,31 +167,37 @@ bool KnownObjectTracker::find(std::int64_t utime, const ObservedDepth& view, con
   const auto found = search_.search(*object_, view, points, seed);
   if (found.empty()) return false;
   hypotheses_.clear();
-  compared_ = searches_ = 0;
+  searches_ = 0;
   found_ = utime;
   look_ = kFirstLook;
-  for (const FoundPose& pose : found)
-    hypotheses_.push_back({.T = pose.T_camera_object, .covariance = diagonal(kFreeShift, kFreeTurn)});
+  follow_also(found);
   return true;
 }
 
-/// Searches where the object is followed, and follows what is found there as well.
+/// Searches where the object is followed.
 void KnownObjectTracker::look_again(std::int64_t utime, const ObservedDepth& view, std::span<const Vector3f> points) {
   if (std::abs(utime - found_) < look_) return;
   look_ *= 2;
   const Vector3f middle = (hypotheses_.front().T * object_->centre).cast<float>();
-  const Vector6d velocity = hypotheses_.front().velocity;
-  for (const FoundPose& pose : search_.search(*object_, view, points, middle)) {
+  follow_also(search_.search(*object_, view, points, middle));
+}
+
+/// Follows the poses that differ from those that are followed, with the velocity of the first one. If there are any,
+/// all are compared from now on.
+void KnownObjectTracker::follow_also(std::span<const FoundPose> found) {
+  const std::size_t before = hypotheses_.size();
+  for (const FoundPose& pose : found) {
     const auto same = [&](const Hypothesis& other) {
       return changes_little(*object_, other.T.inverse() * pose.T_camera_object);
     };
     if (std::ranges::any_of(hypotheses_, same)) continue;
-    hypotheses_.push_back({pose.T_camera_object, velocity, diagonal(kFreeShift, kFreeTurn)});
-
-    // All are compared on the same frames.
-    compared_ = 0;
-    for (Hypothesis& hypothesis : hypotheses_) hypothesis.misfit = 0;
+    Hypothesis hypothesis{.T = pose.T_camera_object, .covariance = diagonal(kFreeShift, kFreeTurn)};
+    if (!hypotheses_.empty()) hypothesis.velocity = hypotheses_.front().velocity;
+    hypotheses_.push_back(hypothesis);
   }
+  if (hypotheses_.size() == before) return;
+  compared_ = 0;
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.misfit = 0;
 }
 
 void KnownObjectTracker::store_palms(std::int64_t utime, const HandEstimates& estimates) {

@@ -51,6 +51,7 @@ class KnownObjectTracker {
   bool find(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
             std::span<const Eigen::Vector3f> points);
   void look_again(std::int64_t utime, const ObservedDepth& view, std::span<const Eigen::Vector3f> points);
+  void follow_also(std::span<const FoundPose> found);
   void store_palms(std::int64_t utime, const HandEstimates& estimates);
 
   KnownObjectPtr object_;

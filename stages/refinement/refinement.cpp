@@ -162,7 +162,6 @@ RefinedPose Refinement::refine_best(const HandObservation& observation, std::spa
     result.pose = start;
   }
   summarise(*work, result);
-
   const Shares free = freedom(work->comparison, work->rendered);
 
   const bool measured = profile_->origin == ProfileOrigin::measured;

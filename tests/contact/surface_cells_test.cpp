@@ -59,7 +59,6 @@ TEST(SurfaceCells, PointsLieOnABallInItsMiddleAndAtItsRim) {
   for (int v = 0; v < seen.depth.height(); ++v)
     for (int u = 0; u < seen.depth.width(); ++u) {
       // Intersect the line of sight with the ball.
-      seen.depth.at(u, v) = seen.label.at(u, v) == PixelLabel::background ? 1 : seen.depth.at(u, v);
       const Eigen::Vector3f ray = seen.point(u, v) / seen.depth.at(u, v);
       const float half = ray.dot(centre),
                   inside = half * half - ray.squaredNorm() * (centre.squaredNorm() - kRadius * kRadius);
