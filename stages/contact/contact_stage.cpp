@@ -14,12 +14,12 @@ using Eigen::Vector3f;
 
 constexpr double kSkinDeviation = 0.0015;  // standard deviation of the skin model [m]
 constexpr double kVisible = 0.5;           // visible fraction of a segment that shows whether something is near it
-// Fitted to simulated grasps: the distance of what is seen errs less than its deviation says, since skin does not enter
-// objects, and is a little too small; and some objects are too thin or too dark to be seen, or taken for others.
+// Fitted to simulated grasps: the distance of a fingertip that is seen errs less than its deviation says, since skin
+// does not enter objects; distances of what is seen are a little too small; and some objects are too thin or too dark
+// to be seen, or taken for others.
 constexpr double kSharper = 2, kNearer = 0.15, kOverlooked = 0.03;
-// Factor on the odds of a touch for a hidden fingertip whose hand holds the object: fingertips that are not seen
-// usually rest on what the hand holds.
-constexpr double kHolds = 3;
+// Factor on the odds of a touch for a fingertip that is hidden: it usually rests on what is near it.
+constexpr double kHiddenTip = 2;
 
 bool tracked(const HandEstimate& estimate) { return estimate.status == TrackStatus::tracking && estimate.profile; }
 
@@ -154,11 +154,11 @@ void ContactStage::touch_shaped(const PosedHand& hand, const HandEstimate& estim
                                 variance(shaped.T_camera_object, shaped.covariance, found.point, found.normal) +
                                 kSkinDeviation * kSkinDeviation);
 
-    // An unseen fingertip counts as more likely to touch the object that its hand holds.
+    // Only what the hand holds is likely to be touched by a hidden fingertip.
     found.inferred = !segment.seen;
     found.partner = shaped.object->id;
     const bool holds = is_tip(s) && found.inferred && shaped.hand_id == estimate.hand_id;
-    set_state(found, (params_.touch_distance - found.distance) / found.deviation, holds ? kHolds : 1);
+    set_object_state(found, (params_.touch_distance - found.distance) / found.deviation, holds ? kHiddenTip : 1);
 
     // A guessed shape need not be all of the object: what is apart from it may touch the rest.
     if (!guessed || found.state == ContactState::touching) contact = found;
@@ -196,9 +196,10 @@ void ContactStage::touch_objects(const PosedHand& hand, const HandEstimate& esti
     // If little of the segment is seen, something unseen may be nearer than the surface that was found.
     const double below = (params_.touch_distance - contact.distance) / contact.deviation;
     const bool visible = segment.seen && segment.visible >= kVisible;
-    set_state(contact, visible ? kSharper * below - kNearer : below);
-    if (visible)  // shrinks towards one half, so that the state stays
-      contact.probability = kOverlooked + (1 - 2 * kOverlooked) * contact.probability;
+    if (visible)
+      set_object_state(contact, (is_tip(s) ? kSharper : 1) * below - kNearer);
+    else
+      set_object_state(contact, below, is_tip(s) ? kHiddenTip : 1);
     if (contact.state != ContactState::touching && !visible) contact = Contact();
   }
 }
@@ -273,6 +274,12 @@ void ContactStage::set_state(Contact& contact, double deviations, double odds) c
   contact.state = contact.probability >= 0.5                 ? ContactState::touching
                   : contact.distance < params_.near_distance ? ContactState::near
                                                              : ContactState::none;
+}
+
+/// Likewise for a touch of an object. The probability shrinks towards one half, so that the state stays.
+void ContactStage::set_object_state(Contact& contact, double deviations, double odds) const {
+  set_state(contact, deviations, odds);
+  contact.probability = kOverlooked + (1 - 2 * kOverlooked) * contact.probability;
 }
 
 }  // namespace barehand

@@ -50,6 +50,7 @@ class ContactStage {
   void touch_hand(std::size_t own, std::size_t other, const HandEstimates& estimates, SegmentContacts& contacts) const;
   Contact touch_of_skins(double distance, double variance, const SegmentState& first, const SegmentState& second) const;
   void set_state(Contact& contact, double deviations, double odds = 1) const;
+  void set_object_state(Contact& contact, double deviations, double odds = 1) const;
 
   ContactParams params_;
   KnownObjectFinder find_known_;  // empty: there are none

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "hand/skin.h"
 #include "math/angles.h"
@@ -83,6 +84,24 @@ TEST_F(Contacts, AnUncertainPoseTempersTheProbability) {
   EXPECT_EQ(a.distance, b.distance);
   EXPECT_GT(b.deviation, a.deviation + 0.005);
   EXPECT_GT(a.probability, b.probability + 0.1);
+}
+
+TEST_F(Contacts, ProbabilitiesAreThoseOfTheMethod) {
+  const auto seen = estimate(), hidden = estimate();
+  for (const auto& hand : {seen, hidden})
+    for (SegmentState& segment : hand->segments) segment.covariance *= 10;
+  for (SegmentState& segment : hidden->segments) segment.seen = false, segment.visible = 0;
+
+  // docs/method.md, "What the hand touches".
+  const auto normal = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
+  const auto check = [&](const Contact& contact, auto phi) {
+    EXPECT_NEAR(contact.probability, 0.03 + 0.94 * phi((0.005 - contact.distance) / contact.deviation), 1e-6);
+  };
+  const int tip = segment_of(2, 2), middle = segment_of(2, 1);
+  check(before(back_[tip] + 0.003, seen).object[tip], [&](double z) { return normal(2 * z - 0.15); });
+  check(before(back_[middle] + 0.003, seen).object[middle], [&](double z) { return normal(z - 0.15); });
+  check(before(back_[middle], hidden).object[middle], [&](double z) { return normal(z); });
+  check(before(back_[tip], hidden).object[tip], [&](double z) { return 2 * normal(z) / (1 + normal(z)); });
 }
 
 TEST_F(Contacts, NothingIsSaidOfSegmentsThatAreNotSeen) {

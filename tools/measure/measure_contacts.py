@@ -14,7 +14,7 @@ import sys
 OLDER = ["grasp_mug,noise=kinect,seed=11", "grasp_ball,noise=kinect,seed=11",
          "grasp_mug,noise=kinect,seed=77,scale=1.1", "grasp_ball,noise=tof,seed=78,scale=0.92"]
 FIRST, OTHERS = ([f"grasp,noise={'tof' if seed % 2 else 'kinect'},seed={seed}" for seed in seeds]
-                 for seeds in (range(1000001, 1000031), range(1000031, 1000047)))
+                 for seeds in (range(1000001, 1000031), range(1000031, 1000103)))
 RATE = 15  # frames per second
 TIPS = ["visible_fingertips", "partly_visible_fingertips", "hidden_fingertips"]
 
