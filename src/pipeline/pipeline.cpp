@@ -215,7 +215,7 @@ void Pipeline::find_contacts(Item& item) {
 /// Likewise.
 void Pipeline::find_grasps(Item& item) {
   if (!stages_.grasp) return;
-  auto grasps = grasp_monitor_.run(stages_.grasp, item.data.estimates);
+  auto grasps = grasp_monitor_.run(stages_.grasp, item.data.estimates, item.data.contacts);
   if (grasps)
     item.data.grasps = std::move(*grasps);
   else

@@ -38,7 +38,7 @@ struct PipelineStages {
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)>
       contact = {};
   /// How the hands grasp; runs after the contacts, likewise. Empty: frames have no grasps.
-  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp = {};
+  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates, const FrameContactsPtr& contacts)> grasp = {};
 };
 
 /// How the pipeline runs.

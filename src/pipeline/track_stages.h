@@ -27,7 +27,7 @@ struct TrackStages {
   /// object is known. Empty if neither is wanted.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;
   /// Empty if the configuration wants no grasps, or the classifier cannot be used, which is logged.
-  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates)> grasp;
+  std::function<Result<FrameGraspsPtr>(const HandEstimates& estimates, const FrameContactsPtr& contacts)> grasp;
 };
 
 /// Looks at the objects without a mesh after the contacts of each frame, on the thread of the sinks.

@@ -3,16 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 
 #include "io/hand/json_fields.h"
 
 namespace barehand {
 namespace {
 
-constexpr int kInterface = 1;  // version of the file's format that this program reads
+constexpr int kInterface = 2;  // version of the file's format that this program reads
 constexpr double kLargest = 1e3;
 constexpr double kLeast = 1e-30;  // least probability of a class
+// A joint of which less is known counts as one of which nothing is known [rad]; the training has the same number.
+constexpr double kMostDeviation = 0.3;
 constexpr const char* kRemedy = "use the file that came with this version of Barehand";
 
 /// Reads the class of each row, and checks that the file is about the classes of this program.
@@ -77,44 +79,58 @@ Result<GraspClassifier> GraspClassifier::load(const std::string& path) {
       read = tl::unexpected(got.error());
   };
 
-  // Read the weights of the rows, and the spread and memory.
+  // Read the layers; the biases of the hidden one tell its size.
   GraspClassifier out;
   out.classes_ = std::move(*classes);
-  out.bias_.resize(rows);
-  Eigen::Matrix<double, kGraspFeatureCount, 1> deviation;
-  Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::RowMajor> weights(rows, kGraspFeatureCount);
+  const auto hidden = static_cast<Eigen::Index>(file.has("hidden_bias") ? file.json["hidden_bias"].size() : 0);
+  if (hidden < 1 || hidden > kMaxRows) return fail("has no list \"hidden_bias\" of 1 to 64 numbers", path, kRemedy);
+  Inputs deviation;
+  Eigen::Matrix<double, Eigen::Dynamic, kInputs, Eigen::RowMajor> inner(hidden, kInputs);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> outer(rows, hidden);
+  out.hidden_bias_.resize(hidden);
+  out.output_bias_.resize(rows);
 
   numbers("mean", -kLargest, kLargest, out.mean_);
   numbers("deviation", 1e-6, kLargest, deviation);
-  numbers("weights", -kLargest, kLargest, weights);
-  numbers("bias", -kLargest, kLargest, out.bias_);
-  number("spread", 0, kLargest, out.spread_);
+  numbers("hidden_weights", -kLargest, kLargest, inner);
+  numbers("hidden_bias", -kLargest, kLargest, out.hidden_bias_);
+  numbers("weights", -kLargest, kLargest, outer);
+  numbers("bias", -kLargest, kLargest, out.output_bias_);
+  numbers("touches", -kLargest, kLargest, std::span(&out.touches_[0][0][0], kGraspCount * kGraspPartCount * 3));
   number("memory", 0.01, kLargest, out.memory_);
   if (!read) return tl::unexpected(read.error());
 
   // Store the inverse deviations, by which the features are scaled.
   out.scale_ = deviation.cwiseInverse();
-  out.weights_ = weights;
+  out.hidden_ = inner;
+  out.output_ = outer;
   return out;
 }
 
 std::array<double, kGraspCount> GraspClassifier::classify(const GraspFeatures& features) const {
-  // Scores of the rows, smaller where the features are uncertain.
-  using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows>;
-  const auto z = (features.values - mean_).cwiseProduct(scale_).eval();
-  const auto spread = (scale_.asDiagonal() * features.spread).eval();
-  Column score = (weights_.lazyProduct(z) + bias_).array();
-  for (Eigen::Index row = 0; row < score.size(); ++row) {
-    const double error = spread_ * spread_ * weights_.row(row).lazyProduct(spread).squaredNorm();
-    score[row] /= std::sqrt(1 + std::numbers::pi / 8 * error);
-  }
+  // Calculate the scores of the rows.
+  Inputs inputs;
+  inputs << features.values, features.deviations.cwiseMin(kMostDeviation);
+  const Inputs z = (inputs - mean_).cwiseProduct(scale_);
+  const Column hidden = (hidden_.lazyProduct(z) + hidden_bias_).array().tanh().matrix();
+  const Column score = output_.lazyProduct(hidden) + output_bias_;
 
   // Add up the rows of each class.
   std::array<double, kGraspCount> out{};
-  const Column p = (score - score.maxCoeff()).exp();
+  const Column p = (score.array() - score.maxCoeff()).exp().matrix();
   for (Eigen::Index row = 0; row < p.size(); ++row)
-    out[static_cast<std::size_t>(classes_[static_cast<std::size_t>(row)])] += p[row] / p.sum();
-  for (double& value : out) value = std::log(std::max(value, kLeast));
+    out[static_cast<std::size_t>(classes_[static_cast<std::size_t>(row)])] += p[row];
+  for (double& value : out) value = std::log(std::max(value / p.sum(), kLeast));
+  if (!features.touches) return out;
+
+  // Add what the touches say, so that the probabilities still sum to one.
+  for (std::size_t k = 0; k < out.size(); ++k)
+    for (std::size_t part = 0; part < features.touches->size(); ++part)
+      out[k] += touches_[k][part][static_cast<std::size_t>((*features.touches)[part])];
+  const double most = *std::ranges::max_element(out);
+  double sum = 0;
+  for (const double value : out) sum += std::exp(value - most);
+  for (double& value : out) value -= most + std::log(sum);
   return out;
 }
 

@@ -9,14 +9,16 @@
 
 namespace barehand {
 
-/// A multinomial logistic classifier of grasps. Each row stands for a shape of the hand: a class may have several, and
-/// no grasp has one for each shape in which hands reach for things. The probability of row k is proportional to
+/// A classifier of grasps: a network with one hidden layer looks at the pose, and a table at the touches. Each row of
+/// the network stands for a shape of the hand: a class may have several, and no grasp has one for each shape in which
+/// hands reach for things. The probability of row k is proportional to
 ///
-///   exp(a_k / sqrt(1 + pi / 8 s_k^2)),   a = W z + b,   s_k^2 = spread^2 |W_k S|^2,
+///   exp(a_k),   a = V tanh(W z + b) + c,
 ///
-/// where z are the features, minus their mean and divided by their deviation in the training, and S the columns of
-/// their spread divided by the same deviation. The root is MacKay's approximation of the mean over uncertain features:
-/// the less is known about the pose, the less certain is the class.
+/// where z are the values of the features and the standard deviations of the joints, minus their mean and divided by
+/// their deviation in the training. From the deviations the network knows which fingers it cannot rely on. The
+/// probability of a class is that of its rows times exp(T_p) for every part p of the hand, where T_p depends on the
+/// class and on whether the part touches something.
 class GraspClassifier {
  public:
   /// Reads a file of tools/training/grasps/train.py. Errors: it cannot be read, is of another interface, lacks a class,
@@ -32,13 +34,21 @@ class GraspClassifier {
  private:
   GraspClassifier() = default;
 
-  static constexpr int kMaxRows = 64;
+  static constexpr int kMaxRows = 64, kInputs = kGraspFeatureCount + kGraspAngleCount;
+  template <int kColumns>
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, kColumns, Eigen::ColMajor, kMaxRows,
+                                kColumns == Eigen::Dynamic ? kMaxRows : kColumns>;
+  using Column = Weights<1>;
+  using Inputs = Eigen::Matrix<double, kInputs, 1>;
 
-  Eigen::Matrix<double, kGraspFeatureCount, 1> mean_, scale_;  // scale: one over the deviation
-  std::vector<int> classes_;                                   // class of each row
-  Eigen::Matrix<double, Eigen::Dynamic, kGraspFeatureCount, Eigen::ColMajor, kMaxRows> weights_;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxRows> bias_;
-  double spread_ = 1;
+  Inputs mean_, scale_;             // scale: one over the deviation
+  Weights<kInputs> hidden_;         // W
+  Column hidden_bias_;              // b
+  Weights<Eigen::Dynamic> output_;  // V
+  Column output_bias_;              // c
+  std::vector<int> classes_;        // class of each row of V
+  // T: what a touch of each part says about each class.
+  std::array<std::array<std::array<double, 3>, kGraspPartCount>, kGraspCount> touches_{};
   double memory_ = 0;
 };
 

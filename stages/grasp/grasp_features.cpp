@@ -13,7 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kThumb = 0, kIndex = 1, kMiddle = 2;
-constexpr double kStep = 1e-3;                  // step of an angle for numerical derivatives [rad]
 constexpr double kFullFlexion = 285 * kDegree;  // sum over knuckle, PIP and DIP joint of a closed finger [rad]
 
 /// The part of a pose on which the features depend.
@@ -69,24 +68,22 @@ Eigen::Matrix<double, kGraspFeatureCount, 1> values_of(const Shape& shape, doubl
   return values;
 }
 
-/// Turns a finger from segment k on by `turn` (rotation vector) about that segment's joint.
-Shape turned(const Shape& shape, int finger, int k, const Vector3d& turn) {
-  Shape out = shape;
-  const Eigen::Matrix3d R = exp_so3(turn);
-  const Vector3d joint = shape.pose[segment_of(finger, k)].t;
-  for (; k < 3; ++k) {
-    SE3& segment = out.pose[segment_of(finger, k)];
-    segment = {R * segment.R, joint + R * (segment.t - joint)};
-  }
-  out.tips[finger] = joint + R * (shape.tips[finger] - joint);
-  return out;
-}
-
 /// Standard deviation of the angle of a segment against its parent about an axis (camera frame) [rad].
 double deviation_about(const HandEstimate& estimate, int segment, const Vector3d& axis) {
   const auto rotation = [&](int s) { return estimate.segments[s].covariance.bottomRightCorner<3, 3>(); };
   const double variance = axis.dot((rotation(segment) - rotation(parent_of(segment))) * axis);
   return variance > 0 ? std::sqrt(variance) : 0;
+}
+
+/// What the palm and the fingers touch. The thumb's metacarpal is part of the ball of the thumb, not of the finger.
+std::array<PartTouch, kGraspPartCount> touches_of(const SegmentContacts& objects) {
+  std::array<PartTouch, kGraspPartCount> touches{};
+  for (int s = 0; s < kSegmentCount; ++s) {
+    if (s == segment_of(kThumb, 0) || objects[s].state == ContactState::unknown) continue;
+    PartTouch& part = touches[static_cast<std::size_t>(s == kPalm ? 0 : 1 + finger_of(s))];
+    part = std::max(part, objects[s].state == ContactState::touching ? PartTouch::touching : PartTouch::apart);
+  }
+  return touches;
 }
 
 Shape shape_of(const HandEstimate& estimate) {
@@ -98,28 +95,26 @@ Shape shape_of(const HandEstimate& estimate) {
 
 }  // namespace
 
-GraspFeatures grasp_features(const HandEstimate& estimate) {
-  const double side = side_sign(estimate.handedness);
+GraspFeatures grasp_features(const HandEstimate& estimate, const SegmentContacts* objects) {
   const Shape shape = shape_of(estimate);
   GraspFeatures features;
-  features.values = values_of(shape, side);
+  features.values = values_of(shape, side_sign(estimate.handedness));
 
-  // Turn every joint about each of its axes by a small angle.
-  int column = 0;
+  // Find how well each joint is known about each of its axes.
+  int next = 0;
   for (int finger = 0; finger < kFingerCount; ++finger)
     for (int k = 0; k < 3; ++k) {
       const int segment = segment_of(finger, k);
       const Eigen::Matrix3d& R = shape.pose[segment].R;
+      features.deviations[next++] = deviation_about(estimate, segment, R.col(0));
       const bool abducts = k == 0 || (finger == kThumb && k == 1);
+      if (!abducts) continue;
       const Vector3d abduction = finger == kThumb ? R.col(1) : shape.pose[kPalm].R.col(1);
-      for (const Vector3d& axis : {Vector3d(R.col(0)), abduction}) {
-        // Differentiate the features numerically, per standard deviation of the joint.
-        const double deviation = deviation_about(estimate, segment, axis);
-        features.spread.col(column++) =
-            (values_of(turned(shape, finger, k, kStep * axis), side) - features.values) * (deviation / kStep);
-        if (!abducts) break;
-      }
+      features.deviations[next++] = deviation_about(estimate, segment, abduction);
     }
+
+  // Find what touches.
+  if (objects) features.touches = touches_of(*objects);
   return features;
 }
 

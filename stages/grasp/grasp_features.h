@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
+#include "hand/contacts.h"
 #include "hand/hand_pose.h"
 
 namespace barehand {
@@ -10,6 +14,11 @@ namespace barehand {
 inline constexpr int kGraspFeatureCount = 52;
 /// Angles of joints on whose errors those of the features depend: 5 of the thumb, 4 of each finger.
 inline constexpr int kGraspAngleCount = 21;
+/// Parts of the hand that may touch an object: the palm, and the five fingers from the thumb on.
+inline constexpr int kGraspPartCount = 1 + kFingerCount;
+
+/// Whether a part of the hand touches an object. unknown: that is not known of any of its segments.
+enum class PartTouch : std::int8_t { unknown = 0, apart = 1, touching = 2 };
 
 /// The features of one pose.
 struct GraspFeatures {
@@ -23,15 +32,16 @@ struct GraspFeatures {
   /// 44..49  the thumb's tip in the frames of the intermediate phalanges of index (3) and middle finger (3)
   /// 50..51  cosine between the pads of the thumb and of the index and the middle finger; -1: they face each other
   Eigen::Matrix<double, kGraspFeatureCount, 1> values;
-  /// Column k is the change of the features by one standard deviation of joint angle k, so that their covariance is
-  /// spread * spread'.
-  Eigen::Matrix<double, kGraspFeatureCount, kGraspAngleCount> spread;
+  /// Standard deviations of the joint angles [rad], finger by finger from the thumb on and from the palm to the tip;
+  /// the flexion of a joint comes before its abduction.
+  Eigen::Matrix<double, kGraspAngleCount, 1> deviations;
+  /// What touches an object. Empty: contacts were not looked for.
+  std::optional<std::array<PartTouch, kGraspPartCount>> touches;
 };
 
-/// The features of an estimate with a pose, and what its covariance says about their errors. The errors of the joints
-/// are assumed to be independent; the variance of a joint's angle is that of its segment minus that of
-/// the segment's parent.
-GraspFeatures grasp_features(const HandEstimate& estimate);
+/// The features of an estimate with a pose. The variance of a joint's angle is that of its segment minus that of the
+/// segment's parent. `objects`: what the segments touch; null: contacts were not looked for.
+GraspFeatures grasp_features(const HandEstimate& estimate, const SegmentContacts* objects);
 
 /// How far the hand is open and closed.
 struct GraspOpening {

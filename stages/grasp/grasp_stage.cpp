@@ -8,17 +8,17 @@ constexpr std::int64_t kMemoryUs = 1'000'000;  // longest gap between frames ove
 
 }  // namespace
 
-Result<FrameGraspsPtr> GraspStage::process(const HandEstimates& estimates) {
+Result<FrameGraspsPtr> GraspStage::process(const HandEstimates& estimates, const FrameContactsPtr& contacts) {
   const auto out = std::allocate_shared<FrameGrasps>(FrameAllocator<FrameGrasps>());
   out->resize(estimates.size());
   while (hands_.size() < estimates.size()) hands_.emplace_back(classifier_.memory());
   for (std::size_t k = 0; k < estimates.size(); ++k)
     if (estimates[k]->status == TrackStatus::tracking && estimates[k]->profile)
-      (*out)[k] = estimate_grasp(hands_[k], *estimates[k]);
+      (*out)[k] = estimate_grasp(hands_[k], *estimates[k], contacts ? &contacts->hands[k].object : nullptr);
   return out;
 }
 
-HandGrasp GraspStage::estimate_grasp(Hand& hand, const HandEstimate& estimate) const {
+HandGrasp GraspStage::estimate_grasp(Hand& hand, const HandEstimate& estimate, const SegmentContacts* objects) const {
   // Start again with another hand, and after a gap.
   const std::int64_t passed = estimate.utime - hand.utime;
   if (hand.id != estimate.hand_id || passed <= 0 || passed > kMemoryUs) {
@@ -29,10 +29,10 @@ HandGrasp GraspStage::estimate_grasp(Hand& hand, const HandEstimate& estimate) c
   hand.id = estimate.hand_id;
   hand.utime = estimate.utime;
 
-  // Classify the pose.
+  // Classify the pose and the touches.
   HandGrasp out;
   out.known = true;
-  out.probabilities = hand.filter.add(classifier_.classify(grasp_features(estimate)), seconds);
+  out.probabilities = hand.filter.add(classifier_.classify(grasp_features(estimate, objects)), seconds);
   out.grasp = hand.filter.grasp();
   if (!hand.since || out.grasp != hand.grasp) hand.since = estimate.utime;
   hand.grasp = out.grasp;

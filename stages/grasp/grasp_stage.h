@@ -8,12 +8,13 @@
 
 namespace barehand {
 
-/// The grasp stage: says how the tracked hands of a frame grasp, from their poses and covariances, frame after frame in
-/// order. It changes no estimate. Nothing is stated of a hand that is not tracked.
+/// The grasp stage: says how the tracked hands of a frame grasp, from their poses and covariances and what they touch,
+/// frame after frame in order. It changes no estimate. Nothing is stated of a hand that is not tracked.
 class GraspStage {
  public:
   explicit GraspStage(GraspClassifier classifier) : classifier_(std::move(classifier)) {}
-  Result<FrameGraspsPtr> process(const HandEstimates& estimates);
+  /// `contacts` null: contacts were not looked for.
+  Result<FrameGraspsPtr> process(const HandEstimates& estimates, const FrameContactsPtr& contacts);
 
  private:
   /// One hand over time.
@@ -26,7 +27,7 @@ class GraspStage {
     int grasp = 0;
   };
 
-  HandGrasp estimate_grasp(Hand& hand, const HandEstimate& estimate) const;
+  HandGrasp estimate_grasp(Hand& hand, const HandEstimate& estimate, const SegmentContacts* objects) const;
 
   GraspClassifier classifier_;
   std::vector<Hand> hands_;  // in the order of the estimates

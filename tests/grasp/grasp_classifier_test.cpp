@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <numbers>
 
 #include "grasp/classifier_file.h"
 #include "support/temp_folder.h"
@@ -16,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Class 1 (wrap) scores twice the first feature.
+/// Class 1 (wrap) scores twice the hyperbolic tangent of the first feature.
 Json small_file() { return test::classifier_file(0, 2); }
 
 class GraspClassifiers : public testing::Test {
@@ -36,28 +35,76 @@ class GraspClassifiers : public testing::Test {
   test::TempFolder folder_;
 };
 
-GraspFeatures features(double first, double deviation = 0) {
+GraspFeatures features(double first) {
   GraspFeatures out;
   out.values.setZero();
   out.values[0] = first;
-  out.spread.setZero();
-  out.spread(0, 3) = deviation;
+  out.deviations.setZero();
   return out;
 }
 
-TEST_F(GraspClassifiers, AreLogistic) {
+TEST_F(GraspClassifiers, AreNetworks) {
   const auto classifier = load(small_file().dump());
   ASSERT_TRUE(classifier) << classifier.error().message();
   const auto log_p = classifier->classify(features(1.5));
-  EXPECT_NEAR(log_p[1], 3 - std::log(std::exp(3) + 17), 1e-12);
-  EXPECT_NEAR(log_p[0], -std::log(std::exp(3) + 17), 1e-12);
+  const double score = 2 * std::tanh(1.5);
+  EXPECT_NEAR(log_p[1], score - std::log(std::exp(score) + 17), 1e-12);
+  EXPECT_NEAR(log_p[0], -std::log(std::exp(score) + 17), 1e-12);
+}
+
+TEST_F(GraspClassifiers, ReadEveryLayerRowByRow) {
+  Json json = small_file();
+  json["mean"][2] = 0.5;
+  json["deviation"][2] = 0.25;
+  json["hidden_bias"] = {0.0, 0.1};  // the second unit sees the third feature
+  for (int input = 0; input < test::kClassifierInputs; ++input)
+    json["hidden_weights"].push_back(input == 2 ? 2.0 : 0.0);
+  json["weights"] = std::vector<double>(2 * kGraspCount, 0.0);
+  json["weights"][2 * 4 + 1] = 3.0;
+  json["bias"][4] = -1.0;
+  const auto classifier = load(json.dump());
+  ASSERT_TRUE(classifier) << classifier.error().message();
+
+  GraspFeatures seen = features(0);
+  seen.values[2] = 0.6;
+  const double score = 3 * std::tanh(2 * (0.6 - 0.5) / 0.25 + 0.1) - 1;
+  EXPECT_NEAR(classifier->classify(seen)[4], score - std::log(std::exp(score) + 17), 1e-12);
+}
+
+TEST_F(GraspClassifiers, AJointOfWhichLittleIsKnownIsAsGoodAsUnknown) {
+  const auto classifier = load(test::classifier_file(kGraspFeatureCount + 3, 10).dump());
+  ASSERT_TRUE(classifier);
+  const auto with = [&](double deviation) {
+    GraspFeatures seen = features(0);
+    seen.deviations[3] = deviation;
+    return classifier->classify(seen)[1];
+  };
+  EXPECT_GT(with(0.2), with(0.1));
+  EXPECT_DOUBLE_EQ(with(5), with(0.3));
+}
+
+TEST_F(GraspClassifiers, TouchesCountForTheClassesThatTheySpeakFor) {
+  Json json = small_file();
+  constexpr std::size_t kPinch = 12, kThumb = 1;
+  json["touches"][(kPinch * kGraspPartCount + kThumb) * 3 + 2] = std::log(4.0);  // the thumb touches
+  const auto classifier = load(json.dump());
+  ASSERT_TRUE(classifier) << classifier.error().message();
+
+  GraspFeatures seen = features(0);
+  seen.touches.emplace();
+  EXPECT_NEAR(std::exp(classifier->classify(seen)[kPinch]), 1.0 / 18, 1e-12) << "nothing is known";
+  (*seen.touches)[kThumb] = PartTouch::apart;
+  EXPECT_NEAR(std::exp(classifier->classify(seen)[kPinch]), 1.0 / 18, 1e-12);
+  (*seen.touches)[kThumb] = PartTouch::touching;
+  EXPECT_NEAR(std::exp(classifier->classify(seen)[kPinch]), 4.0 / 21, 1e-12);
+  EXPECT_NEAR(std::exp(classifier->classify(seen)[1]), 1.0 / 21, 1e-12);
 }
 
 TEST_F(GraspClassifiers, AddUpTheRowsOfOneClass) {
   Json json = small_file();
   json["classes"].push_back("none");
   json["bias"].push_back(0.0);
-  json["weights"].insert(json["weights"].end(), kGraspFeatureCount, 0.0);
+  json["weights"].push_back(0.0);
   const auto classifier = load(json.dump());
   ASSERT_TRUE(classifier) << classifier.error().message();
   const auto log_p = classifier->classify(features(0));
@@ -65,18 +112,10 @@ TEST_F(GraspClassifiers, AddUpTheRowsOfOneClass) {
   EXPECT_NEAR(log_p[5], std::log(1.0 / 19), 1e-12);
 }
 
-TEST_F(GraspClassifiers, DecideLessWhereThePoseIsUncertain) {
-  const auto classifier = load(small_file().dump());
-  ASSERT_TRUE(classifier);
-  const double score = 3 / std::sqrt(1 + std::numbers::pi / 8 * 4 * 0.25);  // weight 2, deviation 0.5
-  EXPECT_NEAR(classifier->classify(features(1.5, 0.5))[1], score - std::log(std::exp(score) + 17), 1e-12);
-  EXPECT_NEAR(classifier->classify(features(1.5, 1e6))[1], std::log(1.0 / 18), 1e-4) << "nothing is known";
-}
-
 TEST_F(GraspClassifiers, FilesThatCannotBeUsedAreRefusedWithTheReason) {
   EXPECT_EQ(refusal([](Json&) {}), "");
   using testing::HasSubstr;
-  EXPECT_THAT(refusal([](Json& j) { j["interface"] = 2; }), HasSubstr("interface 2"));
+  EXPECT_THAT(refusal([](Json& j) { j["interface"] = 1; }), HasSubstr("interface 1"));
   EXPECT_THAT(refusal([](Json& j) { j.erase("interface"); }), HasSubstr("interface"));
   EXPECT_THAT(refusal([](Json& j) { j["classes"][3] = "hook"; }), HasSubstr("hook"));
   EXPECT_THAT(refusal([](Json& j) { j["classes"].erase(17); }), HasSubstr("lacks writing_tripod"));
@@ -86,7 +125,10 @@ TEST_F(GraspClassifiers, FilesThatCannotBeUsedAreRefusedWithTheReason) {
   EXPECT_THAT(refusal([](Json& j) { j["weights"][7] = 1e9; }), HasSubstr("weights"));
   EXPECT_THAT(refusal([](Json& j) { j["deviation"][0] = 0; }), HasSubstr("deviation"));
   EXPECT_THAT(refusal([](Json& j) { j["memory"] = 0; }), HasSubstr("memory"));
-  EXPECT_THAT(refusal([](Json& j) { j.erase("spread"); }), HasSubstr("spread"));
+  EXPECT_THAT(refusal([](Json& j) { j["hidden_weights"].erase(0); }), HasSubstr("hidden_weights"));
+  EXPECT_THAT(refusal([](Json& j) { j.erase("hidden_bias"); }), HasSubstr("hidden_bias"));
+  EXPECT_THAT(refusal([](Json& j) { j["hidden_bias"] = std::vector<double>(65, 0.0); }), HasSubstr("1 to 64"));
+  EXPECT_THAT(refusal([](Json& j) { j.erase("touches"); }), HasSubstr("touches"));
   EXPECT_FALSE(load("[1, 2]"));
   EXPECT_FALSE(load("{"));
   EXPECT_FALSE(GraspClassifier::load("no/such/file.json"));

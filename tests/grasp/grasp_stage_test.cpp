@@ -12,21 +12,22 @@ namespace {
 using test::bent;
 using test::grasping_hand;
 
-/// A stage that takes a bent index finger for a wrap.
+/// A stage that takes a bent index finger for a wrap, unless nothing touches.
 class Grasps : public testing::Test {
  protected:
   static GraspClassifier classifier() {
     constexpr int kIndexPip = 11;
     nlohmann::json file = test::classifier_file(kIndexPip, 20);
     file["bias"][0] = 5;
-    file["bias"][1] = -10;
+    file["bias"][1] = -7;
+    for (int part = 0; part < kGraspPartCount; ++part) file["touches"][part * 3 + 1] = 3.0;  // none, and it is apart
     const test::TempFolder folder;
     std::ofstream(folder / "grasps.json") << file;
     return GraspClassifier::load(folder / "grasps.json").value();
   }
   HandGrasp see(HandEstimate estimate, std::int64_t utime) {
     estimate.utime = utime;
-    return (*stage_.process({std::make_shared<const HandEstimate>(std::move(estimate))}).value())[0];
+    return (*stage_.process({std::make_shared<const HandEstimate>(std::move(estimate))}, contacts_).value())[0];
   }
   /// The same hand for a number of frames at 30 Hz, from this time.
   HandGrasp hold(const HandEstimate& estimate, std::int64_t utime, int frames) {
@@ -36,6 +37,7 @@ class Grasps : public testing::Test {
   }
 
   GraspStage stage_{classifier()};
+  FrameContactsPtr contacts_;  // null: nobody looked
   HandEstimate open_ = grasping_hand(bent(0.2, 0.25, 0.15));
 };
 
@@ -65,14 +67,15 @@ TEST_F(Grasps, AHandThatClosesGraspsSinceThatTime) {
   EXPECT_GT(grasp.closure, 0.4);
 }
 
-TEST_F(Grasps, UncertainFingersMakeItUncertain) {
-  HandEstimate closed = grasping_hand(bent(0.9, 1.0, 0.6));
-  const HandGrasp sure = hold(closed, 1'000'000, 5);
-  for (int s = 1; s < kSegmentCount; ++s)
-    closed.segments[s].covariance = (1 + (s - 1) % 3) * 0.5 * Matrix6d::Identity();
-  const HandGrasp unsure = hold(closed, 10'000'000, 5);
-  EXPECT_GT(sure.probabilities[1], 0.9);
-  EXPECT_LT(unsure.probabilities[1], 0.8);
+TEST_F(Grasps, AFistAroundNothingGraspsNothing) {
+  const HandEstimate closed = grasping_hand(bent(0.9, 1.0, 0.6));
+  EXPECT_EQ(hold(closed, 1'000'000, 30).grasp, 1) << "nobody looked";
+  const auto contacts = std::make_shared<FrameContacts>();
+  contacts->hands.resize(1);
+  contacts_ = contacts;
+  EXPECT_EQ(hold(closed, 10'000'000, 30).grasp, 1) << "nothing is known";
+  for (Contact& contact : contacts->hands[0].object) contact.state = ContactState::none;
+  EXPECT_EQ(hold(closed, 20'000'000, 30).grasp, 0);
 }
 
 TEST_F(Grasps, AnotherHandAndALongGapBeginAnew) {

@@ -110,7 +110,7 @@ struct World {
   RecordingSink sink;
   std::vector<Sink*> sinks{&sink};
   std::function<Result<FrameContactsPtr>(const HandObservations&, const HandEstimates&)> contact;
-  std::function<Result<FrameGraspsPtr>(const HandEstimates&)> grasp;
+  std::function<Result<FrameGraspsPtr>(const HandEstimates&, const FrameContactsPtr&)> grasp;
   std::function<void(const FramePtr&)> before_preprocess;
   std::function<Result<void>(const FramePtr&)> before_track;
   std::vector<int> feedback;
@@ -195,7 +195,7 @@ TEST_P(PipelineLifecycle, SinksThatNeedOnlyHandsDoNotWaitForContacts) {
 }
 
 TEST_P(PipelineLifecycle, SinksGetTheGraspsOfTheirFrameAndDoWithoutThoseThatFailed) {
-  world_.grasp = [](const HandEstimates& estimates) -> Result<FrameGraspsPtr> {
+  world_.grasp = [](const HandEstimates& estimates, const FrameContactsPtr&) -> Result<FrameGraspsPtr> {
     if (estimates[0]->number == 2) return fail("bad");
     auto grasps = std::make_shared<FrameGrasps>(1);
     (*grasps)[0].grasp = static_cast<int>(estimates[0]->number);

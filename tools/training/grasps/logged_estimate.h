@@ -1,9 +1,15 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 
+#include "barehand/contact_state_t.hpp"
 #include "barehand/hand_state_t.hpp"
+#include "drivers/lcm/layouts.h"
+#include "hand/contacts.h"
 #include "hand/hand_pose.h"
+#include "io/lcm/message_log.h"
 
 namespace barehand {
 
@@ -29,6 +35,58 @@ inline HandEstimate estimate_of(const hand_state_t& state) {
   }
   estimate.profile = profile;
   return estimate;
+}
+
+/// Contacts with objects that a log of hand states holds, by hand and utime.
+using LoggedContacts = std::map<std::pair<std::int32_t, std::int64_t>, SegmentContacts>;
+
+/// Reads which segments touch objects, from all messages of a log.
+inline Result<LoggedContacts> read_contacts(MessageLog& log) {
+  LoggedContacts contacts;
+  for (const LogEntry& entry : log.entries()) {
+    if (entry.hash != contact_state_t::getHash()) continue;
+    const auto bytes = log.read(entry);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto message = decode_message<contact_state_t>(*bytes);
+    if (!message) continue;
+    SegmentContacts& segments = contacts[{message->hand_id, message->utime}];
+    for (int s = 0; s < kSegmentCount; ++s) segments[s].state = static_cast<ContactState>(message->object[s].state);
+  }
+  return contacts;
+}
+
+/// A hand in a log, and what it touches.
+struct LoggedHand {
+  hand_state_t state;
+  HandEstimate estimate;
+  FrameContactsPtr contacts;  ///< only states are set; null: the log does not tell
+};
+
+/// Calls `visit` for each state of a hand in a log, in the order of the log.
+template <class Visit>
+Result<void> visit_hands(const std::string& path, Visit visit) {
+  auto log = MessageLog::open(path);
+  if (!log) return tl::unexpected(log.error());
+  const auto contacts = read_contacts(*log);
+  if (!contacts) return tl::unexpected(contacts.error());
+  for (const LogEntry& entry : log->entries()) {
+    if (entry.hash != hand_state_t::getHash()) continue;
+    const auto bytes = log->read(entry);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto state = decode_message<hand_state_t>(*bytes);
+    if (!state) continue;
+
+    // Find what it touches.
+    LoggedHand hand{*state, estimate_of(*state), nullptr};
+    if (const auto found = contacts->find({state->hand_id, state->utime}); found != contacts->end()) {
+      const auto frame = std::make_shared<FrameContacts>();
+      frame->hands.resize(1);
+      frame->hands[0].object = found->second;
+      hand.contacts = frame;
+    }
+    if (const auto visited = visit(hand); !visited) return visited;
+  }
+  return {};
 }
 
 }  // namespace barehand

@@ -4,8 +4,8 @@
 //   planned_examples OUT FIRST_SEED COUNT classes      every class of each seed, open, closing and holding
 //   planned_examples OUT FIRST_SEED COUNT sequences    the sequences of collect.py, 15 frames a second
 //
-// Each row (example_file.h) begins with the class, or the number of the sequence, and the time in the sequence [s]; the
-// spread is that of joints that err by 1 rad each.
+// Each row (example_file.h) begins with the class, or the number of the sequence, and the time in the sequence [s]. It
+// ends with the derivatives of the values of the features by the joint angles, one column of 52 for each angle.
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -21,17 +21,40 @@ namespace {
 using namespace barehand;
 using namespace barehand::synthetic;
 
-/// An estimate of this shape of a hand, each of whose joints has a standard deviation of 1 rad.
-HandEstimate estimate_of(const std::shared_ptr<const HandProfile>& profile, const HandAngles& angles) {
+constexpr double kStep = 1e-3;  // step of an angle for numerical derivatives [rad]
+
+/// The features of this shape of a hand.
+GraspFeatures features_of(const std::shared_ptr<const HandProfile>& profile, const HandAngles& angles) {
   HandEstimate estimate;
   estimate.profile = profile;
   const HandPose pose = pose_segments(*profile, {SE3{}, angles});
   for (int s = 0; s < kSegmentCount; ++s) {
     estimate.segments[s].T_camera_segment = pose[s];
-    const double joints = s == kPalm ? 0 : 1 + (s - 1) % 3;
-    estimate.segments[s].covariance = joints * Matrix6d::Identity();
+    estimate.segments[s].covariance.setZero();
   }
-  return estimate;
+  return grasp_features(estimate, nullptr);
+}
+
+/// The features of this shape, and their derivatives in the order of GraspFeatures::deviations. The animated thumb has
+/// no abduction at its second joint, whose column is zero.
+void write_with_derivatives(std::ofstream& out, double origin, double time,
+                            const std::shared_ptr<const HandProfile>& profile, const HandAngles& angles) {
+  const GraspFeatures features = features_of(profile, angles);
+  Eigen::Matrix<double, kGraspFeatureCount, kGraspAngleCount> derivatives;
+  int column = 0;
+  const auto differentiate = [&](auto angle_of) {
+    HandAngles moved = angles;
+    angle_of(moved) += kStep;
+    derivatives.col(column++) = (features_of(profile, moved).values - features.values) / kStep;
+  };
+  for (std::size_t finger = 0; finger < angles.size(); ++finger)
+    for (std::size_t k = 0; k < 3; ++k) {
+      differentiate([&](HandAngles& moved) -> double& { return moved[finger].flexion[k]; });
+      if (k == 0) differentiate([&](HandAngles& moved) -> double& { return moved[finger].abduction; });
+      if (finger == 0 && k == 1) derivatives.col(column++).setZero();
+    }
+  write_example(out, origin, time, features);
+  write_floats(out, derivatives);
 }
 
 /// The rows of one sequence.
@@ -42,8 +65,7 @@ Result<void> write_examples(const HandRig& rig, int type, std::uint64_t seed, do
   if (!sequence) return tl::unexpected(sequence.error());
   const auto profile = std::make_shared<const HandProfile>(rig.profile);
   for (const double time : times)
-    write_example(out, origin, time,
-                  grasp_features(estimate_of(profile, (*sequence)->at(time).hands[0].skeleton.angles)));
+    write_with_derivatives(out, origin, time, profile, (*sequence)->at(time).hands[0].skeleton.angles);
   return {};
 }
 

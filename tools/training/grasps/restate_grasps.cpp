@@ -6,9 +6,7 @@
 // OUT is an LCM log of the grasp_state_t that `barehand track` would have written with this classifier.
 #include <cstdio>
 
-#include "drivers/lcm/layouts.h"
 #include "io/lcm/lcm_log_writer.h"
-#include "io/lcm/message_log.h"
 #include "stages/grasp/grasp_stage.h"
 #include "stages/publish/grasp_messages.h"
 #include "tools/training/grasps/logged_estimate.h"
@@ -20,24 +18,18 @@ using namespace barehand;
 Result<void> restate(char** argv) {
   auto classifier = GraspClassifier::load(argv[1]);
   if (!classifier) return tl::unexpected(classifier.error());
-  auto log = MessageLog::open(argv[2]);
-  if (!log) return tl::unexpected(log.error());
   auto out = LcmLogWriter::create(argv[3], true);
   if (!out) return tl::unexpected(out.error());
 
   GraspStage stage(std::move(*classifier));
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != hand_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<hand_state_t>(*bytes);
-    if (!state) continue;
-    const auto estimate = std::make_shared<const HandEstimate>(estimate_of(*state));
-    const auto grasps = stage.process({estimate});
+  const auto restated = visit_hands(argv[2], [&](const LoggedHand& hand) -> Result<void> {
+    const auto estimate = std::make_shared<const HandEstimate>(hand.estimate);
+    const auto grasps = stage.process({estimate}, hand.contacts);
     if (!grasps) return tl::unexpected(grasps.error());
     const auto message = encode_message(grasp_message(*estimate, estimate->status, (**grasps)[0]));
-    if (auto sent = (*out)->send("GRASP_STATE", message, state->utime); !sent) return sent;
-  }
+    return (*out)->send("GRASP_STATE", message, hand.state.utime);
+  });
+  if (!restated) return restated;
   return (*out)->finish();
 }
 

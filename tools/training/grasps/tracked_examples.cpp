@@ -9,8 +9,6 @@
 #include <fstream>
 #include <optional>
 
-#include "drivers/lcm/layouts.h"
-#include "io/lcm/message_log.h"
 #include "tools/training/grasps/example_file.h"
 #include "tools/training/grasps/logged_estimate.h"
 
@@ -19,21 +17,15 @@ namespace {
 using namespace barehand;
 
 Result<void> write_examples(const std::string& path, int number, std::ofstream& out) {
-  auto log = MessageLog::open(path);
-  if (!log) return tl::unexpected(log.error());
   std::optional<std::int64_t> first;
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != hand_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<hand_state_t>(*bytes);
-    if (!state) continue;
-    if (!first) first = state->utime;
-    if (state->status != hand_state_t::TRACKING) continue;
-
-    write_example(out, number, 1e-6 * static_cast<double>(state->utime - *first), grasp_features(estimate_of(*state)));
-  }
-  return {};
+  return visit_hands(path, [&](const LoggedHand& hand) -> Result<void> {
+    if (!first) first = hand.state.utime;
+    if (hand.state.status != hand_state_t::TRACKING) return {};
+    const double seconds = 1e-6 * static_cast<double>(hand.state.utime - *first);
+    const SegmentContacts* objects = hand.contacts ? &hand.contacts->hands[0].object : nullptr;
+    write_example(out, number, seconds, grasp_features(hand.estimate, objects));
+    return {};
+  });
 }
 
 }  // namespace

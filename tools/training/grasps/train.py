@@ -10,53 +10,54 @@ python3-numpy. The same files give the same classifier; docs/recognised_grasps.m
 import argparse
 import csv
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 
-FEATURES, ANGLES = 52, 21
+FEATURES, ANGLES, PARTS = 52, 21, 6
 CLASSES = ("none", "wrap", "index_extension", "thumb_along", "ring", "sphere_3", "sphere_4", "extension", "adduction",
            "tripod_variation", "lateral_tripod", "lateral", "pinch", "tripod", "quadpod", "five_fingers",
            "parallel_extension", "writing_tripod")
 KINDS = np.array([0] + [1] * 7 + [2] * 4 + [3] * 6)
-FINGER = np.array([0] * 5 + [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4)  # of each joint angle
-ABDUCTION = np.isin(np.arange(ANGLES), (1, 3, 6, 10, 14, 18))
 GRASPED = 1.9   # s, when the sequences begin to hold the object
 CLOSING = 0.6   # s before and after a grasp that are neither learned nor counted
 ROWS = ("none",) * 17 + CLASSES[1:]  # row k: a hand that is open for class k + 1; row 17 + k: that holds so
-NONE_WEIGHT = 3  # of all hands that hold nothing, against one class
 MEMORY = 0.3  # of the filter [s]
-FACTORS = (0.5, 1.0, 2.0)  # of the spread that the covariance of the pose implies
+MOST_DEVIATION, DEVIATION_UNIT = 0.3, 0.1  # of joints [rad]; the first is that of grasp_classifier.cpp
+HIDDEN, STEPS, BATCH, PENALTY = 32, 4000, 1024, 1e-3  # of the network and its training
+FACTORS = (0.5, 0.7, 1.0)  # of the network's scores, which is too sure in hands that it has not seen
+TOUCH_FACTOR = 0.3   # of what touches say: those of the fingers depend on each other, and last
+TOUCH_EXAMPLES = 100  # frames that the mean of all grasps counts as, for each class
 SEED = 1
 
 
 class Examples:
-    """Rows of a file (example_file.h): `origin`, `second`, `x` [n, 52] and `spread` [n, 52, 21]."""
+    """Rows of a file (example_file.h): `origin`, `second`, `x` [n, 52], `deviation` [n, 21], `touch` [n, 6], and where
+    the file has them, `derivative` [n, 52, 21]."""
 
-    def __init__(self, path):
-        rows = np.fromfile(path, np.float32).reshape(-1, 2 + FEATURES * (1 + ANGLES))
+    def __init__(self, path, derivatives):
+        width = 2 + FEATURES + ANGLES + PARTS
+        rows = np.fromfile(path, np.float32).reshape(-1, width + (FEATURES * ANGLES if derivatives else 0))
         self.origin, self.second = rows[:, 0].astype(int), rows[:, 1].astype(float)
         self.x = rows[:, 2:2 + FEATURES].astype(float)
-        self.spread = rows[:, 2 + FEATURES:].reshape(-1, ANGLES, FEATURES).transpose(0, 2, 1)
+        self.deviation = rows[:, 2 + FEATURES:2 + FEATURES + ANGLES].astype(float)
+        self.touch = rows[:, width - PARTS:width].astype(int)
+        if derivatives:
+            self.derivative = rows[:, width:].reshape(-1, ANGLES, FEATURES).transpose(0, 2, 1)
 
 
-def noisy(planned, errors, random, repeats):
-    """Planned examples with errors, and their rows. In the first copy the errors of joints are drawn; in the others they
-    are what the tracker got wrong in a frame of another sequence (`errors`: one array [n, 52] for each), too."""
-    parts = []
-    for repeat in range(repeats):
-        n = len(planned.x)
-        hidden = random.random((n, 5)) < random.choice((0.0, 0.3, 0.6), (n, 1))
-        deviation = np.where(hidden, random.uniform(0.2, 0.6, (n, 5)), random.uniform(0.03, 0.18, (n, 1)))[:, FINGER]
-        together = random.normal(size=(n, 5))[:, FINGER]  # the joints of a finger err alike, in part
-        own = random.normal(size=(n, ANGLES))
-        error = np.einsum("nfa,na->nf", planned.spread,
-                          deviation * np.where(ABDUCTION, 0.5 * own, 0.7 * together + 0.7 * own))
-        if repeat > 0:
-            chosen = [errors[k][random.integers(len(errors[k]))] for k in random.integers(len(errors), size=n)]
-            error = 0.3 * error + np.array(chosen)
-        parts.append(planned.x + error)
-    return np.concatenate(parts), np.tile(planned.origin + np.where(planned.second > GRASPED, 17, 0), repeats)
+def noisy(planned, errors, random):
+    """Planned examples as they would be tracked: their features with errors, the deviations of their joints, and their
+    rows. Each gets what the tracker got wrong in a frame of some sequence, more or less of it, and the deviations that
+    it stated there (`errors`: for each sequence, an array [n, 52] and one [n, 21])."""
+    n = len(planned.x)
+    chosen = [(k, random.integers(len(errors[k][0]))) for k in random.integers(len(errors), size=n)]
+    error = np.array([errors[k][0][i] for k, i in chosen])
+    deviation = np.array([errors[k][1][i] for k, i in chosen])
+    drawn = random.normal(size=(n, ANGLES)) * np.maximum(deviation, 0.05)
+    x = planned.x + random.uniform(0.3, 1.8, (n, 1)) * error + np.einsum("nfa,na->nf", planned.derivative, drawn)
+    return x, deviation, planned.origin + np.where(planned.second > GRASPED, 17, 0)
 
 
 def truth_of(folder):
@@ -88,39 +89,73 @@ def softmax(score):
     return p / p.sum(1, keepdims=True)
 
 
-class Classifier:
-    """Multinomial logistic regression, as in stages/grasp/grasp_classifier.h."""
+class Network:
+    """Multinomial regression with one hidden layer, as in stages/grasp/grasp_classifier.h. Every row is learned equally
+    well, and all open hands together as much as one class."""
 
-    def __init__(self, x, row, weight, penalty=1e-3, steps=300):
-        self.mean = np.average(x, axis=0, weights=weight)
-        self.deviation = np.sqrt(np.average((x - self.mean) ** 2, axis=0, weights=weight))
-        z = np.column_stack(((x - self.mean) / self.deviation, np.ones(len(x)))).astype(np.float32)
-        target = np.eye(len(ROWS), dtype=np.float32)[row]
-        weight = (weight / weight.sum()).astype(np.float32)[:, None]
-        w = np.zeros((z.shape[1], len(ROWS)), np.float32)
-        first, second = np.zeros_like(w), np.zeros_like(w)
-        for step in range(1, steps + 1):  # Adam, with a rate that falls to 0
-            gradient = z.T @ (weight * (softmax(z @ w) - target)) + penalty * np.vstack((w[:-1], 0 * w[-1:]))
-            first = 0.9 * first + 0.1 * gradient
-            second = 0.99 * second + 0.01 * gradient ** 2
-            rate = 0.1 * (1 - step / steps)
-            w -= rate * (first / (1 - 0.9 ** step)) / (np.sqrt(second / (1 - 0.99 ** step)) + 1e-8)
-        w = w - w.mean(1, keepdims=True)
-        self.weights, self.bias = w[:-1].T.astype(float), w[-1].astype(float)
+    def __init__(self, x, deviation, row):
+        random = np.random.default_rng(SEED)
+        self.mean = np.concatenate((x.mean(0), np.zeros(ANGLES)))
+        self.unit = np.concatenate((x.std(0), np.full(ANGLES, DEVIATION_UNIT)))
+        z = self._inputs(x, deviation).astype(np.float32)
 
-    def log_probabilities(self, x, spread, factor):
-        score = (x - self.mean) / self.deviation @ self.weights.T + self.bias
-        errors = np.einsum("kf,nfa->nka", self.weights / self.deviation, spread)
-        score = score / np.sqrt(1 + np.pi / 8 * factor ** 2 * (errors ** 2).sum(2))
-        p = softmax(score)
+        # Examples are drawn with these probabilities.
+        weight = 1.0 / np.maximum(np.bincount(row, minlength=len(ROWS)), 1)[row]
+        weight[row < 17] /= 17
+        total = np.cumsum(weight) / weight.sum()
+
+        # Adam, with a rate that falls to 0.
+        sizes = ((z.shape[1], HIDDEN), HIDDEN, (HIDDEN, len(ROWS)), len(ROWS))
+        scales = (z.shape[1] ** -0.5, 0, 0.1 * HIDDEN ** -0.5, 0)
+        layers = [(scale * random.normal(size=size)).astype(np.float32) for size, scale in zip(sizes, scales)]
+        first, second = [0 * p for p in layers], [0 * p for p in layers]
+        for step in range(1, STEPS + 1):
+            drawn = np.searchsorted(total, random.random(BATCH)).clip(0, len(z) - 1)
+            hidden = np.tanh(z[drawn] @ layers[0] + layers[1])
+            wrong = softmax(hidden @ layers[2] + layers[3])
+            wrong[np.arange(BATCH), row[drawn]] -= 1
+            wrong /= BATCH
+            back = (wrong @ layers[2].T) * (1 - hidden ** 2)
+            gradients = (z[drawn].T @ back + PENALTY * layers[0], back.sum(0),
+                         hidden.T @ wrong + PENALTY * layers[2], wrong.sum(0))
+            rate = 0.004 * (1 - step / STEPS)
+            for k, gradient in enumerate(gradients):
+                first[k] = 0.9 * first[k] + 0.1 * gradient
+                second[k] = 0.99 * second[k] + 0.01 * gradient ** 2
+                layers[k] -= rate * (first[k] / (1 - 0.9 ** step)) / (np.sqrt(second[k] / (1 - 0.99 ** step)) + 1e-8)
+        self.layers = [layer.astype(float) for layer in layers]
+
+    def _inputs(self, x, deviation):
+        return (np.column_stack((x, np.minimum(deviation, MOST_DEVIATION))) - self.mean) / self.unit
+
+    def log_probabilities(self, x, deviation, factor):
+        hidden = np.tanh(self._inputs(x, deviation) @ self.layers[0] + self.layers[1])
+        p = softmax(factor * (hidden @ self.layers[2] + self.layers[3]))
         return np.log(np.column_stack((p[:, :17].sum(1), p[:, 17:])) + 1e-30)
 
 
-def balanced(row):
-    """Weights with which every class counts the same, and the open hands together NONE_WEIGHT times as much."""
-    weight = 1.0 / np.maximum(np.bincount(row, minlength=len(ROWS)), 1)[row]
-    weight[row < 17] *= NONE_WEIGHT / 17
-    return weight / weight.sum()
+def touch_table(tracked, label, sequences):
+    """What the touches of the parts say about the classes, in the tracked sequences: logarithms [18, 6, 3]."""
+    rows = np.concatenate(sequences)
+    touch, true = tracked.touch[rows], label[rows]
+    share = lambda chosen: np.stack([(touch[chosen] == state).sum(0) for state in range(3)], 1)
+    grasps = share(true > 0) / (true > 0).sum()
+    return TOUCH_FACTOR * np.log(np.stack([
+        (share(true == k) + TOUCH_EXAMPLES * grasps + 0.5) / ((true == k).sum() + TOUCH_EXAMPLES + 1.5)
+        for k in range(len(CLASSES))]))
+
+
+class Classifier:
+    """A network and a table of touches, as the program has them."""
+
+    def __init__(self, network, table):
+        self.network, self.table = network, table
+
+    def log_probabilities(self, tracked, rows, factor):
+        score = self.network.log_probabilities(tracked.x[rows], tracked.deviation[rows], factor)
+        for part in range(PARTS):
+            score += self.table[:, part, tracked.touch[rows, part]].T
+        return np.log(softmax(score) + 1e-30)
 
 
 def filtered(log_p, seconds, memory):
@@ -147,7 +182,7 @@ def evaluate(classifier, tracked, label, sequences, factor):
     right = kind = wrong = held = none = open_frames = changes = 0
     loss, seconds = [], 0.0
     for rows in sequences:
-        log_p = classifier.log_probabilities(tracked.x[rows], tracked.spread[rows], factor)
+        log_p = classifier.log_probabilities(tracked, rows, factor)
         p, stated = filtered(log_p, tracked.second[rows], MEMORY)
         true = label[rows]
         loss.append(-np.log(p[np.arange(len(true)), true] + 1e-12).mean())
@@ -178,26 +213,27 @@ def main():
     parser.add_argument("--exact", type=Path, required=True)
     parser.add_argument("--tracked", type=Path, required=True)
     parser.add_argument("--sequences", type=Path, required=True)
-    parser.add_argument("--repeats", type=int, default=4, help="copies of each planned example with errors")
     a = parser.parse_args()
-    planned, tracked, truth = Examples(a.planned), Examples(a.tracked), truth_of(a.sequences)
+    planned, tracked, truth = Examples(a.planned, True), Examples(a.tracked, False), truth_of(a.sequences)
+    if (tracked.touch < 0).any():
+        sys.exit(f"train.py: {a.tracked} has hands without contacts: collect with contact.enabled, as is the default")
     label = labels_of(tracked, truth)
 
     # Tracked sequences that show a grasp, and what the tracker got wrong in them.
-    exact = Examples(a.exact)
+    exact = Examples(a.exact, True)
     by_time = {(number, round(time * 1000)): x for number, time, x in zip(exact.origin, exact.second, exact.x)}
     seeds = sorted(int(path.stem) for path in a.sequences.glob("*.csv"))
     sequences = [np.flatnonzero((tracked.origin == k) & (label >= 0)) for k in range(len(truth))]
     sequences = [rows for rows in sequences if (label[rows] > 0).any()]
-    errors = [tracked.x[rows] - np.array([by_time[seeds[tracked.origin[i]], round(tracked.second[i] * 1000)] for i in rows])
-              for rows in sequences]
+    exact_of = lambda i: by_time[seeds[tracked.origin[i]], round(tracked.second[i] * 1000)]
+    errors = [(tracked.x[rows] - np.array([exact_of(i) for i in rows]), tracked.deviation[rows]) for rows in sequences]
 
     def train(learned):
         """A classifier from the planned examples with the tracker's errors in these sequences."""
-        x, rows = noisy(planned, [errors[k] for k in learned], np.random.default_rng(SEED), a.repeats)
-        return Classifier(x, rows, balanced(rows))
+        network = Network(*noisy(planned, [errors[k] for k in learned], np.random.default_rng(SEED)))
+        return Classifier(network, touch_table(tracked, label, [sequences[k] for k in learned]))
 
-    # Choose the factor of the spread, each sequence judged by a classifier without its errors.
+    # Choose the factor of the scores, each sequence judged by a classifier without its errors.
     folds = [(train([k for k in range(len(sequences)) if k % 3 != fold]), sequences[fold::3]) for fold in range(3)]
     losses = {}
     for factor in FACTORS:
@@ -214,14 +250,20 @@ def main():
 
 
 def file_text(classifier, factor):
-    """The file that the program reads; one line for the weights of each row."""
+    """The file that the program reads; one line for the weights of each row. The scores include the factor."""
     def numbers(values):
         return ", ".join(f"{v:.5g}" for v in values)
 
-    weights = ",\n    ".join(numbers(w) for w in classifier.weights)
-    return (f'{{\n  "interface": 1,\n  "classes": {json.dumps(ROWS)},\n  "mean": [{numbers(classifier.mean)}],\n'
-            f'  "deviation": [{numbers(classifier.deviation)}],\n  "weights": [\n    {weights}],\n'
-            f'  "bias": [{numbers(classifier.bias)}],\n  "spread": {factor},\n  "memory": {MEMORY}\n}}\n')
+    def matrix(rows):
+        return "[\n    " + ",\n    ".join(numbers(row) for row in rows) + "]"
+
+    network = classifier.network
+    hidden, hidden_bias, output, bias = network.layers
+    return (f'{{\n  "interface": 2,\n  "classes": {json.dumps(ROWS)},\n  "mean": [{numbers(network.mean)}],\n'
+            f'  "deviation": [{numbers(network.unit)}],\n  "hidden_weights": {matrix(hidden.T)},\n'
+            f'  "hidden_bias": [{numbers(hidden_bias)}],\n  "weights": {matrix(factor * output.T)},\n'
+            f'  "bias": [{numbers(factor * bias)}],\n  "touches": {matrix(classifier.table.reshape(len(CLASSES), -1))},\n'
+            f'  "memory": {MEMORY}\n}}\n')
 
 
 if __name__ == "__main__":
