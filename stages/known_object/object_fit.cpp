@@ -4,16 +4,47 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace barehand {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTogether = 6;     // k: neighbouring points that count as one
-constexpr double kAway = 0.1;       // least cosine between the line of sight and the normal of a visible surface
+constexpr double kTogether = 6;  // k: neighbouring points that count as one
+constexpr double kAway = 0.1;    // least cosine between the line of sight and the normal of a visible surface
+// Steps towards the camera, and their number, in which the side of a thin wall that faces the camera is looked for [m].
+constexpr double kThrough = 0.002;
+constexpr int kThroughSteps = 6;
 constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
 constexpr double kLeastTurn = 0.3;  // information about a rotation that nothing shows, as if it were known to 1.8 rad
+
+bool faces_camera(const SurfaceResidual& residual, const Vector3d& sight) {
+  return residual.normal.dot(sight) <= -kAway * residual.normal.norm();
+}
+
+/// The residual of the surface that faces the camera. A point behind the middle of a thin wall is nearer to the wall's
+/// other side, which the camera does not see: the plane of the side that it sees takes its place. None: the nearest
+/// surface is not seen, and no wall is between the point and the camera.
+std::optional<SurfaceResidual> visible_residual(const DistanceGrid& grid, const SE3& T, const Eigen::Vector3f& point) {
+  const Vector3d at = point.cast<double>(), sight = at.normalized();
+  SurfaceResidual residual = surface_residual(grid, T, point);
+  if (faces_camera(residual, sight)) return residual;
+
+  // Step towards the camera until the surface faces it.
+  bool within = residual.value < 0;
+  for (int step = 1; step <= kThroughSteps; ++step) {
+    const Vector3d back = step * kThrough * sight;
+    residual = surface_residual(grid, T, (at - back).cast<float>());
+    within = within || residual.value < 0;
+    if (!faces_camera(residual, sight)) continue;
+    if (!within) break;
+    residual.value += residual.normal.dot(back);
+    residual.gradient.tail<3>() = residual.normal.cross(at - T.t);
+    return residual;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -43,11 +74,11 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
 
     // Add the points.
     for (const Eigen::Vector3f& point : points) {
-      const SurfaceResidual r = surface_residual(object.grid, T, point);
-      if (r.normal.dot(point.cast<double>()) > -kAway * point.cast<double>().norm() * r.normal.norm()) continue;
-      const double root = scale_sq / (scale_sq + r.value * r.value), weight = unit * root * root;
-      information.noalias() += weight * r.gradient * r.gradient.transpose();
-      force -= weight * r.value * r.gradient;
+      const auto r = visible_residual(object.grid, T, point);
+      if (!r) continue;
+      const double root = scale_sq / (scale_sq + r->value * r->value), weight = unit * root * root;
+      information.noalias() += weight * r->gradient * r->gradient.transpose();
+      force -= weight * r->value * r->gradient;
     }
 
     // Make a Gauss-Newton step.

@@ -94,6 +94,16 @@ TEST(ObjectFit, OutliersCountLittle) {
   EXPECT_LT((fitted.T_camera_object.t - kPose.t).norm(), 0.001);
 }
 
+TEST(ObjectFit, NoiseDoesNotPushAThinWallToTheCamera) {
+  // Half of the points are behind the middle of the wall, and so nearer to its other side.
+  const KnownObjectPtr plate = make_known_object(test::box_mesh({0.1f, 0.1f, 0.003f}), 1);
+  const SE3 pose{exp_so3({0.3, -0.2, 0}), {0, 0, 0.6}};
+  const auto points = seen_points(*plate, pose, 0.003);
+  const FittedPose fitted = fit_pose(*plate, points, 0.003, pose, {pose, 1e6 * Matrix6d::Identity()}, 20);
+  const Vector3d normal = pose.R.col(2);
+  EXPECT_LT(std::abs(normal.dot(fitted.T_camera_object.t - pose.t)), 0.0004);
+}
+
 TEST(ObjectFit, TheCovarianceSaysWhatNothingShows) {
   // A ball may turn as it likes.
   const KnownObjectPtr ball = make_known_object(test::ball_mesh(0.035f), 1);
