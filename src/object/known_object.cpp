@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
+#include <span>
 
 #include "math/random.h"
 #include "object/half_turns.h"
@@ -15,6 +17,32 @@ using Eigen::Vector3f;
 constexpr int kSamples = 1000;
 // Size of the grid's cells as a fraction of the object, and its bounds [m].
 constexpr double kCells = 1.0 / 60, kFinest = 0.0015, kCoarsest = 0.005;
+// About a round axis a quarter turn moves more than kLeastMoved and at most kMostMoved of the surface by kMoved [m].
+constexpr double kMoved = 0.008, kLeastMoved = 0.02, kMostMoved = 0.3;
+constexpr int kTurns = 12;
+
+/// The turns of KnownObject::turns.
+std::vector<SE3> turns_about_round_axes(const std::array<SE3, 3>& half_turns, const DistanceGrid& grid,
+                                        std::span<const SurfaceSample> samples) {
+  std::vector<SE3> turns;
+  for (const SE3& half : half_turns) {
+    const Vector3d axis = log_so3(half.R).normalized(), middle = 0.5 * half.t;
+    const auto turned = [&](double angle) -> SE3 {
+      const Eigen::Matrix3d R = exp_so3(angle * axis);
+      return {R, middle - R * middle};
+    };
+
+    // Measure how much of the surface a quarter turn moves away from it.
+    const SE3 quarter = turned(std::numbers::pi / 2);
+    const auto moved = std::ranges::count_if(samples, [&](const SurfaceSample& sample) {
+      return std::abs(grid.distance((quarter * sample.p.cast<double>()).cast<float>())) > kMoved;
+    });
+    const double share = static_cast<double>(moved) / static_cast<double>(samples.size());
+    if (share < kLeastMoved || share > kMostMoved) continue;
+    for (int k = 1; k < kTurns; ++k) turns.push_back(turned(2 * std::numbers::pi * k / kTurns));
+  }
+  return turns;
+}
 
 }  // namespace
 
@@ -63,8 +91,10 @@ KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
 
   // Leave out the samples of one part of the object that lie inside another part.
   std::erase_if(samples, [&](const SurfaceSample& sample) { return grid.distance(sample.p) < -cell; });
-  return std::make_shared<KnownObject>(
-      KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius, half_turns(mesh)});
+  const std::array<SE3, 3> halves = half_turns(mesh);
+  std::vector<SE3> turns = turns_about_round_axes(halves, grid, samples);
+  return std::make_shared<KnownObject>(KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent,
+                                                   radius, halves, std::move(turns)});
 }
 
 }  // namespace barehand

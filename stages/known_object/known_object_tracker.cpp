@@ -25,8 +25,9 @@ constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was fo
 // Least time from one search to the next, at first and once they have been in vain for kVain [us].
 constexpr std::int64_t kSearchEvery = 60'000, kSearchRarely = 120'000, kVain = 2'000'000;
 constexpr double kLongestStep = 0.2;  // frames farther apart than this have nothing to do with each other [s]
-// A pose is given up if less of the object shows, or if more of what should be seen is seen through.
-constexpr double kLeastShown = 0.2, kMostContradicted = 0.15;
+// A pose is given up if less of the object shows, if more of what should be seen is seen through, or if more of the
+// outline is none.
+constexpr double kLeastShown = 0.2, kMostContradicted = 0.15, kMostContinued = 0.35;
 constexpr double kSmooth = 0.5;  // weight of the newest velocity
 // How far an object may be from the prediction of its velocity and of a palm, after 1/30 s.
 constexpr double kFreeShift = 0.01, kFreeTurn = 15 * kDegree, kPalmShift = 0.003, kPalmTurn = 4 * kDegree;
@@ -90,7 +91,9 @@ void KnownObjectTracker::refine(Hypothesis& hypothesis, double dt, const Observe
 
   // Keep the prediction where the object is not seen.
   const PoseQuality quality = quality_of(*object_, view, fitted.T_camera_object, points);
-  hypothesis.seen = quality.visibility.shown() >= kLeastShown && quality.visibility.contradicted() <= kMostContradicted;
+  hypothesis.seen = quality.visibility.shown() >= kLeastShown &&
+                    quality.visibility.contradicted() <= kMostContradicted &&
+                    view.continued(*object_, fitted.T_camera_object) <= kMostContinued;
   if (!hypothesis.seen) {
     hypothesis.T = best->T;
     hypothesis.velocity.setZero();

@@ -24,6 +24,7 @@ constexpr double kScale = 0.008;  // errors larger than this count as outliers [
 constexpr double kOnSurface = 0.006, kSearchReach = 0.015;
 constexpr std::size_t kSamples = 300;
 constexpr double kLeastShownAtStart = 0.2, kMaxInconsistent = 0.1, kLeastExplained = 0.65;
+constexpr double kMostContinuedAtStart = 0.15;  // of the outline; more is a part of something larger
 constexpr int kLeastSeen = 15;
 // Two poses are the same if they are turned by less than kSmallTurn from each other, or if less than kFewMoved of the
 // surface moves by more than kMoved [m].
@@ -150,7 +151,7 @@ void ObjectSearch::refine(const KnownObject& object, const ObservedDepth& view, 
   view.points_near(object, start, kSearchReach, 4 * kFewPoints, near_);
   const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kSearchIterations).T_camera_object;
   const FoundPose pose{T, quality_of(object, view, T, points)};
-  if (pose.quality.acceptable()) found_.push_back(pose);
+  if (pose.quality.acceptable() && view.continued(object, T) <= kMostContinuedAtStart) found_.push_back(pose);
 }
 
 std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const ObservedDepth& view,
@@ -182,6 +183,7 @@ std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const
   const auto cost = [](const FoundPose& pose) { return pose.quality.cost(); };
   const SE3 best = std::ranges::min_element(found_, {}, cost)->T_camera_object;
   for (const SE3& turn : object.half_turns) refine(object, view, points, best * turn);
+  for (const SE3& turn : object.turns) refine(object, view, points, best * turn);
   std::ranges::sort(found_, {}, cost);
 
   // Leave out what is almost the same as a better one.

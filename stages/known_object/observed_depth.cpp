@@ -1,7 +1,10 @@
 #include "stages/known_object/observed_depth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace barehand {
 namespace {
@@ -9,9 +12,14 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kSlant = 0.2;    // cosine of the angle at which a surface is still measured
-constexpr double kAlike = 0.006;  // difference in depth of the same surface, besides noise [m]
-constexpr double kEdge = 0.007;   // difference in depth of neighbouring pixels on different surfaces [m]
+constexpr double kSlant = 0.2;       // cosine of the angle at which a surface is still measured
+constexpr double kAlike = 0.006;     // difference in depth of the same surface, besides noise [m]
+constexpr double kEdge = 0.007;      // difference in depth of neighbouring pixels on different surfaces [m]
+constexpr double kAveraged = 0.010;  // difference in depth of neighbouring pixels up to which they are averaged [m]
+// Directions in which an outline is looked at, and how far beyond the last visible place [m].
+constexpr std::size_t kDirections = 32;
+constexpr double kNearBeyond = 0.008, kFarBeyond = 0.014;
+constexpr double kInPlane = 0.005;  // distance in depth from a plane that is continued, besides noise [m]
 constexpr float kLeave = 0.004f, kInside = 0.0005f;
 
 /// Whether the object itself is between a place on its surface and the camera. Follows the ray in steps of the distance
@@ -27,6 +35,16 @@ bool hides_itself(const KnownObject& object, const Vector3f& place, const Vector
     along += std::max(distance, 0.001f);
   }
   return false;
+}
+
+/// Unit vectors in the image plane, evenly spread.
+std::array<Eigen::Vector2d, kDirections> directions_around() {
+  std::array<Eigen::Vector2d, kDirections> directions;
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kDirections;
+    directions[k] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
 }
 
 }  // namespace
@@ -47,11 +65,31 @@ double ObservedDepth::depth(int u, int v) const {
   return frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
 }
 
-/// Whether a neighbour of the pixel with the depth z shows another surface. Such a pixel may measure a place between
-/// both.
+/// The mean depth of a pixel and those of its neighbours that seem to be of the same surface [m]; 0: no measurement.
+/// Without averaging, points that noise moves into a thin wall would be taken for its other side.
+double ObservedDepth::smoothed(int u, int v) const {
+  const double z = depth(u, v);
+  if (z <= 0) return 0;
+  double sum = 0;
+  int count = 0;
+  for (int y = v - 1; y <= v + 1; ++y)
+    for (int x = u - 1; x <= u + 1; ++x) {
+      const double neighbour = depth(x, y);
+      if (std::abs(neighbour - z) > kAveraged) continue;
+      sum += neighbour;
+      ++count;
+    }
+  return sum / count;
+}
+
+/// Whether a neighbour of the pixel with the smoothed depth z shows another surface. Such a pixel may measure a place
+/// between both.
 bool ObservedDepth::at_edge(int u, int v, double z) const {
-  const auto differs = [&](double neighbour) { return neighbour > 0 && std::abs(neighbour - z) > kEdge; };
-  return differs(depth(u - 1, v)) || differs(depth(u + 1, v)) || differs(depth(u, v - 1)) || differs(depth(u, v + 1));
+  const auto differs = [&](int x, int y) {
+    const double neighbour = smoothed(x, y);
+    return neighbour > 0 && std::abs(neighbour - z) > kEdge;
+  };
+  return differs(u - 1, v) || differs(u + 1, v) || differs(u, v - 1) || differs(u, v + 1);
 }
 
 void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
@@ -76,8 +114,10 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
     points.resize(before);
     for (int v = v0; v <= v1; v += step)
       for (int u = u0; u <= u1 && points.size() < before + most; u += step) {
-        const double z = depth(u, v);
-        if (std::abs(z - centre.z()) > object.radius + reach || of_hand(u, v) || at_edge(u, v, z)) continue;
+        const double raw = depth(u, v);
+        if (std::abs(raw - centre.z()) > object.radius + reach || of_hand(u, v)) continue;
+        const double z = smoothed(u, v);
+        if (at_edge(u, v, z)) continue;
         const Vector3d p = camera.unproject(u, v, z);
         if (object.grid.distance((T_object_camera * p).cast<float>()) > reach) continue;
         points.push_back(p.cast<float>());
@@ -109,27 +149,70 @@ int Visibility::*ObservedDepth::shows(int u, int v, double z, double alike) cons
   return before ? &Visibility::blocked : &Visibility::through;
 }
 
-Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const {
-  Visibility visibility;
+/// Calls `visit` with the place and the normal (camera frame) of each of the first samples that face the camera and
+/// are not hidden by the object itself.
+template <class Visit>
+void ObservedDepth::visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples,
+                                  Visit visit) const {
   const Eigen::Matrix3f R = T_camera_object.R.cast<float>();
   const Vector3f t = T_camera_object.t.cast<float>(), camera_in_object = -(R.transpose() * t);
-  const double alike = kAlike + 2 * noise_;
   for (std::size_t i = 0; i < std::min(samples, object.samples.size()); ++i) {
-    // Leave out what faces away, and what the object itself hides.
     const SurfaceSample& sample = object.samples[i];
     const Vector3f to_camera = (camera_in_object - sample.p).normalized();
     if (sample.n.dot(to_camera) < kSlant || hides_itself(object, sample.p, to_camera)) continue;
-
-    // Compare its depth with the measured one.
     const Vector3d p = (R * sample.p + t).cast<double>();
-    if (p.z() <= 0) continue;
+    if (p.z() > 0) visit(p, (R * sample.n).cast<double>().eval());
+  }
+}
+
+Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const {
+  // Count the samples by what lies in front of them or behind them.
+  Visibility visibility;
+  const double alike = kAlike + 2 * noise_;
+  visit_visible(object, T_camera_object, samples, [&](const Vector3d& p, const Vector3d&) {
     const Eigen::Vector2d pixel = frame_.camera.project(p);
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-
-    // Count the sample by what lies in front of it or behind it.
     ++(visibility.*shows(u, v, p.z(), alike));
-  }
+  });
   return visibility;
+}
+
+double ObservedDepth::continued(const KnownObject& object, const SE3& T_camera_object) const {
+  // Find the last visible place in each direction of the image.
+  struct Last {
+    double along = -std::numeric_limits<double>::infinity();  // [px]
+    Vector3d p, normal;
+  };
+  std::array<Last, kDirections> last;
+  static const std::array<Eigen::Vector2d, kDirections> directions = directions_around();
+  visit_visible(object, T_camera_object, object.samples.size(), [&](const Vector3d& p, const Vector3d& normal) {
+    const Eigen::Vector2d pixel = frame_.camera.project(p);
+    for (std::size_t k = 0; k < kDirections; ++k)
+      if (const double along = directions[k].dot(pixel); along > last[k].along) last[k] = {along, p, normal};
+  });
+
+  // What a pixel shows of the plane through a place: -1 nothing is known, 0 another surface, 1 the plane.
+  const auto shows_plane = [&](const Last& place, double beyond, std::size_t k) {
+    const Eigen::Vector2d pixel =
+        frame_.camera.project(place.p) + beyond * frame_.camera.fx / place.p.z() * directions[k];
+    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+    const double measured = smoothed(u, v);
+    if (measured <= 0 || of_hand(u, v)) return -1;
+    const Vector3d ray = frame_.camera.unproject(pixel.x(), pixel.y(), 1);
+    const double z = place.normal.dot(place.p) / place.normal.dot(ray);
+    return std::abs(measured - z) < kInPlane + 2 * noise_ ? 1 : 0;
+  };
+
+  // Look beyond these places.
+  int looked = 0, continues = 0;
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    if (std::isinf(last[k].along)) return 0;
+    const int near = shows_plane(last[k], kNearBeyond, k), far = shows_plane(last[k], kFarBeyond, k);
+    if (near < 0 || far < 0) continue;
+    ++looked;
+    continues += near == 1 && far == 1;
+  }
+  return continues / std::max(1.0, static_cast<double>(looked));
 }
 
 }  // namespace barehand

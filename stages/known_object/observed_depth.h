@@ -35,11 +35,18 @@ class ObservedDepth {
                    std::vector<Eigen::Vector3f>& points) const;
   /// Compares the pose with the depth, with the first `samples` samples of the object.
   Visibility visibility(const KnownObject& object, const SE3& T_camera_object, std::size_t samples) const;
+  /// How much of the outline of the object is none in the frame: the fraction of directions in which what is measured
+  /// beyond its last visible place continues the surface there. A face of an object that is taken for a part of a table
+  /// continues everywhere.
+  double continued(const KnownObject& object, const SE3& T_camera_object) const;
   double noise() const { return noise_; }
 
  private:
+  template <class Visit>
+  void visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples, Visit visit) const;
   bool of_hand(int u, int v) const;
   double depth(int u, int v) const;  // [m]; 0: no measurement
+  double smoothed(int u, int v) const;
   bool at_edge(int u, int v, double z) const;
   int Visibility::*shows(int u, int v, double z, double alike) const;
 

@@ -60,5 +60,25 @@ TEST_F(SmearedDepth, AThinObjectHasAsManyPointsAsAreWanted) {
   EXPECT_GT(points.size(), 150u);
 }
 
+TEST(Outline, OfAnObjectInAirIsNotContinuedButThatOfAPartOfAWallIs) {
+  const KnownObjectPtr box = make_known_object(test::box_mesh({0.08f, 0.06f, 0.02f}), 1);
+  test::ObjectScene scene;
+  scene.object = box.get();
+  scene.T_camera_object = {exp_so3({0, 0, 0.4}), {0.01, 0, 0.5}};
+  const HandObservations in_air{scene.observe(0)};
+  EXPECT_LT(ObservedDepth(in_air).continued(*box, scene.T_camera_object), 0.05);
+
+  // Its front is where the wall is.
+  scene.object = nullptr;
+  const HandObservations wall{scene.observe(0)};
+  const SE3 within{Eigen::Matrix3d::Identity(), {0.01, 0, test::ObjectScene::kWall + 0.01}};
+  EXPECT_GT(ObservedDepth(wall).continued(*box, within), 0.95);
+
+  // A hand hides half of the outline, which then says nothing.
+  scene.covered_from = 100;
+  const HandObservations covered{scene.observe(0)};
+  EXPECT_GT(ObservedDepth(covered).continued(*box, within), 0.95);
+}
+
 }  // namespace
 }  // namespace barehand
