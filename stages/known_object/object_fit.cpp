@@ -13,7 +13,8 @@ using Eigen::Vector3d;
 
 constexpr double kTogether = 6;  // k: neighbouring points that count as one
 constexpr double kAway = 0.1;    // least cosine between the line of sight and the normal of a visible surface
-// Steps towards the camera, and their number, in which the side of a thin wall that faces the camera is looked for [m].
+// Steps towards the camera [m], and their number, in which the side of a thin wall that faces the camera is looked for.
+// A search, which starts far off, does without.
 constexpr double kThrough = 0.002;
 constexpr int kThroughSteps = 6;
 constexpr double kStep = 1e-4;      // the iterations end with smaller steps than this [m, rad]
@@ -25,15 +26,16 @@ bool faces_camera(const SurfaceResidual& residual, const Vector3d& sight) {
 
 /// The residual of the surface that faces the camera. A point behind the middle of a thin wall is nearer to the wall's
 /// other side, which the camera does not see: the plane of the side that it sees takes its place. None: the nearest
-/// surface is not seen, and no wall is between the point and the camera.
-std::optional<SurfaceResidual> visible_residual(const DistanceGrid& grid, const SE3& T, const Eigen::Vector3f& point) {
+/// surface is not seen, and no wall is between the point and the camera. `steps`: how many are looked for it.
+std::optional<SurfaceResidual> visible_residual(const DistanceGrid& grid, const SE3& T, const Eigen::Vector3f& point,
+                                                int steps) {
   const Vector3d at = point.cast<double>(), sight = at.normalized();
   SurfaceResidual residual = surface_residual(grid, T, point);
   if (faces_camera(residual, sight)) return residual;
 
   // Step towards the camera until the surface faces it.
   bool within = residual.value < 0;
-  for (int step = 1; step <= kThroughSteps; ++step) {
+  for (int step = 1; step <= steps; ++step) {
     const Vector3d back = step * kThrough * sight;
     residual = surface_residual(grid, T, (at - back).cast<float>());
     within = within || residual.value < 0;
@@ -74,7 +76,7 @@ FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> 
 
     // Add the points.
     for (const Eigen::Vector3f& point : points) {
-      const auto r = visible_residual(object.grid, T, point);
+      const auto r = visible_residual(object.grid, T, point, coarse > 1 ? 0 : kThroughSteps);
       if (!r) continue;
       const double root = scale_sq / (scale_sq + r->value * r->value), weight = unit * root * root;
       information.noalias() += weight * r->gradient * r->gradient.transpose();

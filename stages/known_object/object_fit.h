@@ -32,9 +32,10 @@ struct FittedPose {
 ///     E(T) = sum rho(d(T^-1 p_i)) / (k sigma^2) + prior,  rho(r) = r^2 s^2 / (s^2 + r^2)  (Geman and McClure)
 ///
 /// d is the signed distance, and s = 2 sigma. Neighbouring points err together, so that k of them count as one.
-/// Points whose nearest surface faces away from the camera count nothing. In the first half of the iterations s is up
-/// to `coarse` times as large: with 6, start from a pose that is off by no more than about 20 degrees and 20 mm; with
-/// 1, by no more than a few millimetres, and other things nearby disturb little.
+/// Points whose nearest surface faces away from the camera count nothing, unless `coarse` is 1 and they are in or
+/// behind a thin wall: d is then the distance from the side that the camera sees. In the first half of the iterations s
+/// is up to `coarse` times as large: with 6, start from a pose that is off by no more than about 20 degrees and 20 mm;
+/// with 1, by no more than a few millimetres, and other things nearby disturb little.
 FittedPose fit_pose(const KnownObject& object, std::span<const Eigen::Vector3f> points, double sigma, const SE3& start,
                     const PosePrior& prior, int iterations, double coarse = 6);
 

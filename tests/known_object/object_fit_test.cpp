@@ -99,7 +99,7 @@ TEST(ObjectFit, NoiseDoesNotPushAThinWallToTheCamera) {
   const KnownObjectPtr plate = make_known_object(test::box_mesh({0.1f, 0.1f, 0.003f}), 1);
   const SE3 pose{exp_so3({0.3, -0.2, 0}), {0, 0, 0.6}};
   const auto points = seen_points(*plate, pose, 0.003);
-  const FittedPose fitted = fit_pose(*plate, points, 0.003, pose, {pose, 1e6 * Matrix6d::Identity()}, 20);
+  const FittedPose fitted = fit_pose(*plate, points, 0.003, pose, {pose, 1e6 * Matrix6d::Identity()}, 20, 1);
   const Vector3d normal = pose.R.col(2);
   EXPECT_LT(std::abs(normal.dot(fitted.T_camera_object.t - pose.t)), 0.0004);
 }
