@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "barehand/contact_state_t.hpp"
-#include "drivers/lcm/layouts.h"
-#include "io/lcm/message_log.h"
+#include "drivers/lcm/logged_messages.h"
 
 namespace barehand {
 
@@ -16,27 +15,23 @@ Result<StatedContacts> read_stated_contacts(const std::string& log_path) {
   std::optional<std::int8_t> side;
 
   // Read every message that states contacts.
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != contact_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<contact_state_t>(*bytes);
-    if (!state) continue;
-
+  const auto read = visit_messages<contact_state_t>(*log, [&](const contact_state_t& state) -> Result<void> {
     // A truth is that of one hand.
-    if (state->handedness != side.value_or(state->handedness))
+    if (state.handedness != side.value_or(state.handedness))
       return fail("holds the contacts of two hands, and a truth is one hand's", log_path,
                   "track the hand alone: --hand right or --hand left");
-    side = state->handedness;
+    side = state.handedness;
 
-    auto& segments = contacts[state->utime];
+    auto& segments = contacts[state.utime];
     for (int s = 0; s < kSegmentCount; ++s) {
-      const segment_contact_t& stated = state->object[s];
+      const segment_contact_t& stated = state.object[s];
       const bool known = stated.state != contact_state_t::UNKNOWN && stated.probability >= 0 && stated.probability <= 1;
       segments[s] = {known, known && stated.state == contact_state_t::TOUCHING, stated.probability,
                      Eigen::Vector3d(stated.point)};
     }
-  }
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
 
   // Refuse a log without contacts.
   if (contacts.empty())

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "barehand/grasp_state_t.hpp"
-#include "drivers/lcm/layouts.h"
-#include "io/lcm/message_log.h"
+#include "drivers/lcm/logged_messages.h"
 
 namespace barehand {
 
@@ -16,25 +15,21 @@ Result<StatedGrasps> read_stated_grasps(const std::string& log_path) {
   std::optional<std::int8_t> side;
 
   // Read every message that states a grasp.
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != grasp_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<grasp_state_t>(*bytes);
-    if (!state) continue;
-
+  const auto read = visit_messages<grasp_state_t>(*log, [&](const grasp_state_t& state) -> Result<void> {
     // A truth is that of one hand.
-    if (state->handedness != side.value_or(state->handedness))
+    if (state.handedness != side.value_or(state.handedness))
       return fail("holds the grasps of two hands, and a truth is one hand's", log_path,
                   "track the hand alone: --hand right or --hand left");
-    side = state->handedness;
+    side = state.handedness;
 
-    const bool known = state->grasp >= 0 && state->grasp < kGraspCount && state->kind >= 0 &&
-                       state->kind <= static_cast<int>(GraspKind::precision) && state->probability >= 0 &&
-                       state->probability <= 1;
-    grasps[state->utime] =
-        known ? StatedGrasp{true, state->grasp, state->probability, GraspKind(state->kind)} : StatedGrasp{};
-  }
+    const bool known = state.grasp >= 0 && state.grasp < kGraspCount && state.kind >= 0 &&
+                       state.kind <= static_cast<int>(GraspKind::precision) && state.probability >= 0 &&
+                       state.probability <= 1;
+    grasps[state.utime] =
+        known ? StatedGrasp{true, state.grasp, state.probability, GraspKind(state.kind)} : StatedGrasp{};
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
 
   // Refuse a log without grasps.
   if (grasps.empty())

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "barehand/object_state_t.hpp"
-#include "drivers/lcm/layouts.h"
-#include "io/lcm/message_log.h"
+#include "drivers/lcm/logged_messages.h"
 
 namespace barehand {
 namespace {
@@ -21,20 +20,18 @@ Result<ObjectPoses> read_stated_objects(const std::string& log_path) {
   ObjectPoses poses;
 
   // Read the messages about the first object, and leave out those that hold no rigid motion.
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != object_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<object_state_t>(*bytes);
-    if (!state || state->object_id != kFirst) continue;
+  const auto read = visit_messages<object_state_t>(*log, [&](const object_state_t& state) -> Result<void> {
+    if (state.object_id != kFirst) return {};
 
-    const double* q = state->orientation;
+    const double* q = state.orientation;
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-    const Eigen::Vector3d position(state->position);
+    const Eigen::Vector3d position(state.position);
     const bool is_pose = position.allFinite() && std::abs(orientation.norm() - 1) < kUnit;
-    if (!is_pose) continue;
-    poses[state->utime] = {orientation.normalized().toRotationMatrix(), position};
-  }
+    if (!is_pose) return {};
+    poses[state.utime] = {orientation.normalized().toRotationMatrix(), position};
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
   return poses;
 }
 

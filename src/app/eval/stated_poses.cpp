@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "barehand/hand_state_t.hpp"
-#include "drivers/lcm/layouts.h"
+#include "drivers/lcm/logged_messages.h"
 #include "hand/hand_pose.h"
-#include "io/lcm/message_log.h"
 
 namespace barehand {
 namespace {
@@ -51,32 +50,30 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
   std::optional<std::int8_t> side;
 
   // Read every message that states a pose.
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != hand_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<hand_state_t>(*bytes);
-    if (!state || !state->has_pose) continue;
+  const auto read = visit_messages<hand_state_t>(*log, [&](const hand_state_t& state) -> Result<void> {
+    if (!state.has_pose) return {};
 
     // A truth is that of one hand.
-    if (state->handedness != side.value_or(state->handedness))
+    if (state.handedness != side.value_or(state.handedness))
       return fail("holds the states of two hands, and a truth is one hand's", log_path,
                   "track the hand alone: --hand right or --hand left");
-    side = state->handedness;
+    side = state.handedness;
 
     // Accept each frame once, since a truth is that of one run.
-    const auto [frame, is_new] = poses.try_emplace(state->frame_number);
+    const auto [frame, is_new] = poses.try_emplace(state.frame_number);
     if (!is_new)
-      return fail("frame " + std::to_string(state->frame_number) + " occurs twice", log_path,
+      return fail("frame " + std::to_string(state.frame_number) + " occurs twice", log_path,
                   "give the log of a single run on a single recording");
 
     // Read the segments, and refuse numbers that do not form a pose.
     auto& segments = frame->second;
-    for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state->segments[s]);
+    for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state.segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))
-      return fail("frame " + std::to_string(state->frame_number) + " has a pose with invalid numbers", log_path,
+      return fail("frame " + std::to_string(state.frame_number) + " has a pose with invalid numbers", log_path,
                   "give a log written by barehand track --states-log");
-  }
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
 
   // Refuse a log without any pose.
   if (poses.empty())

@@ -4,12 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "barehand/contact_state_t.hpp"
-#include "barehand/hand_state_t.hpp"
-#include "drivers/lcm/layouts.h"
+#include "drivers/lcm/logged_messages.h"
 #include "hand/contacts.h"
 #include "hand/hand_pose.h"
-#include "io/lcm/message_log.h"
 
 namespace barehand {
 
@@ -43,15 +40,12 @@ using LoggedContacts = std::map<std::pair<std::int32_t, std::int64_t>, SegmentCo
 /// Reads which segments touch objects, from all messages of a log.
 inline Result<LoggedContacts> read_contacts(MessageLog& log) {
   LoggedContacts contacts;
-  for (const LogEntry& entry : log.entries()) {
-    if (entry.hash != contact_state_t::getHash()) continue;
-    const auto bytes = log.read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto message = decode_message<contact_state_t>(*bytes);
-    if (!message) continue;
-    SegmentContacts& segments = contacts[{message->hand_id, message->utime}];
-    for (int s = 0; s < kSegmentCount; ++s) segments[s].state = static_cast<ContactState>(message->object[s].state);
-  }
+  const auto read = visit_messages<contact_state_t>(log, [&](const contact_state_t& message) -> Result<void> {
+    SegmentContacts& segments = contacts[{message.hand_id, message.utime}];
+    for (int s = 0; s < kSegmentCount; ++s) segments[s].state = static_cast<ContactState>(message.object[s].state);
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
   return contacts;
 }
 
@@ -69,24 +63,18 @@ Result<void> visit_hands(const std::string& path, Visit visit) {
   if (!log) return tl::unexpected(log.error());
   const auto contacts = read_contacts(*log);
   if (!contacts) return tl::unexpected(contacts.error());
-  for (const LogEntry& entry : log->entries()) {
-    if (entry.hash != hand_state_t::getHash()) continue;
-    const auto bytes = log->read(entry);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto state = decode_message<hand_state_t>(*bytes);
-    if (!state) continue;
+  return visit_messages<hand_state_t>(*log, [&](const hand_state_t& state) -> Result<void> {
+    LoggedHand hand{state, estimate_of(state), nullptr};
 
     // Find what it touches.
-    LoggedHand hand{*state, estimate_of(*state), nullptr};
-    if (const auto found = contacts->find({state->hand_id, state->utime}); found != contacts->end()) {
+    if (const auto found = contacts->find({state.hand_id, state.utime}); found != contacts->end()) {
       const auto frame = std::make_shared<FrameContacts>();
       frame->hands.resize(1);
       frame->hands[0].object = found->second;
       hand.contacts = frame;
     }
-    if (const auto visited = visit(hand); !visited) return visited;
-  }
-  return {};
+    return visit(hand);
+  });
 }
 
 }  // namespace barehand
