@@ -4,8 +4,9 @@
 //   planned_examples OUT FIRST_SEED COUNT classes      every class of each seed, open, closing and holding
 //   planned_examples OUT FIRST_SEED COUNT sequences    the sequences of collect.py, 15 frames a second
 //
-// Each row (example_file.h) begins with the class, or the number of the sequence, and the time in the sequence [s]. It
-// ends with the derivatives of the values of the features by the joint angles, one column of 52 for each angle.
+// Each row (example_file.h) begins with the class, or the number of the sequence, and the time in the sequence [s].
+// Rows of classes end with the derivatives of the values of the features by the joint angles, one column of 52 for each
+// angle.
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -35,11 +36,10 @@ GraspFeatures features_of(const std::shared_ptr<const HandProfile>& profile, con
   return grasp_features(estimate, nullptr);
 }
 
-/// The features of this shape, and their derivatives in the order of GraspFeatures::deviations. The animated thumb has
-/// no abduction at its second joint, whose column is zero.
-void write_with_derivatives(std::ofstream& out, double origin, double time,
-                            const std::shared_ptr<const HandProfile>& profile, const HandAngles& angles) {
-  const GraspFeatures features = features_of(profile, angles);
+/// The derivatives of the features of this shape, in the order of GraspFeatures::deviations. The animated thumb has no
+/// abduction at its second joint, whose column is zero.
+void write_derivatives(std::ofstream& out, const std::shared_ptr<const HandProfile>& profile, const HandAngles& angles,
+                       const GraspFeatures& features) {
   Eigen::Matrix<double, kGraspFeatureCount, kGraspAngleCount> derivatives;
   int column = 0;
   const auto differentiate = [&](auto angle_of) {
@@ -53,19 +53,22 @@ void write_with_derivatives(std::ofstream& out, double origin, double time,
       if (k == 0) differentiate([&](HandAngles& moved) -> double& { return moved[finger].abduction; });
       if (finger == 0 && k == 1) derivatives.col(column++).setZero();
     }
-  write_example(out, origin, time, features);
   write_floats(out, derivatives);
 }
 
-/// The rows of one sequence.
+/// The rows of one sequence. `derivatives`: they have them, too.
 Result<void> write_examples(const HandRig& rig, int type, std::uint64_t seed, double origin,
-                            const std::vector<double>& times, std::ofstream& out) {
+                            const std::vector<double>& times, bool derivatives, std::ofstream& out) {
   const auto sequence =
       make_varied_grasp(rig, {"", std::string(grasp_types()[static_cast<std::size_t>(type)].name)}, seed);
   if (!sequence) return tl::unexpected(sequence.error());
   const auto profile = std::make_shared<const HandProfile>(rig.profile);
-  for (const double time : times)
-    write_with_derivatives(out, origin, time, profile, (*sequence)->at(time).hands[0].skeleton.angles);
+  for (const double time : times) {
+    const HandAngles angles = (*sequence)->at(time).hands[0].skeleton.angles;
+    const GraspFeatures features = features_of(profile, angles);
+    write_example(out, origin, time, features);
+    if (derivatives) write_derivatives(out, profile, angles, features);
+  }
   return {};
 }
 
@@ -88,7 +91,8 @@ Result<void> run(char** argv) {
     for (int type = 0; type < kGraspTypeCount; ++type) {
       if (sequences && type != static_cast<int>(seed % kGraspTypeCount)) continue;
       const auto origin = sequences ? static_cast<double>(seed - first) : static_cast<double>(type);
-      if (const auto written = write_examples(rig, type, seed, origin, times, out); !written) return written;
+      if (const auto written = write_examples(rig, type, seed, origin, times, !sequences, out); !written)
+        return written;
     }
   }
   if (!out.flush()) return fail("cannot be written", argv[1], "is the disk full?");

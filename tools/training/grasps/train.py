@@ -220,7 +220,7 @@ def main():
     label = labels_of(tracked, truth)
 
     # Tracked sequences that show a grasp, and what the tracker got wrong in them.
-    exact = Examples(a.exact, True)
+    exact = Examples(a.exact, False)
     by_time = {(number, round(time * 1000)): x for number, time, x in zip(exact.origin, exact.second, exact.x)}
     seeds = sorted(int(path.stem) for path in a.sequences.glob("*.csv"))
     sequences = [np.flatnonzero((tracked.origin == k) & (label >= 0)) for k in range(len(truth))]
