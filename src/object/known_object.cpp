@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
-#include <span>
 
 #include "math/random.h"
 #include "object/half_turns.h"
@@ -32,12 +31,7 @@ std::vector<SE3> turns_about_round_axes(const std::array<SE3, 3>& half_turns, co
       return {R, middle - R * middle};
     };
 
-    // Measure how much of the surface a quarter turn moves away from it.
-    const SE3 quarter = turned(std::numbers::pi / 2);
-    const auto moved = std::ranges::count_if(samples, [&](const SurfaceSample& sample) {
-      return std::abs(grid.distance((quarter * sample.p.cast<double>()).cast<float>())) > kMoved;
-    });
-    const double share = static_cast<double>(moved) / static_cast<double>(samples.size());
+    const double share = moved_share(grid, samples, turned(std::numbers::pi / 2), kMoved);
     if (share < kLeastMoved || share > kMostMoved) continue;
     for (int k = 1; k < kTurns; ++k) turns.push_back(turned(2 * std::numbers::pi * k / kTurns));
   }
@@ -45,6 +39,15 @@ std::vector<SE3> turns_about_round_axes(const std::array<SE3, 3>& half_turns, co
 }
 
 }  // namespace
+
+double moved_share(const DistanceGrid& grid, std::span<const SurfaceSample> samples, const SE3& T_object_object,
+                   double distance) {
+  const Eigen::Matrix3f R = T_object_object.R.cast<float>();
+  const Vector3f t = T_object_object.t.cast<float>();
+  const auto moved = std::ranges::count_if(
+      samples, [&](const SurfaceSample& sample) { return std::abs(grid.distance(R * sample.p + t)) > distance; });
+  return static_cast<double>(moved) / static_cast<double>(samples.size());
+}
 
 std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh) {
   // Add up the areas.

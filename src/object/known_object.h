@@ -2,6 +2,8 @@
 
 #include <array>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "math/se3.h"
 #include "object/distance_grid.h"
@@ -33,6 +35,10 @@ using KnownObjectPtr = std::shared_ptr<const KnownObject>;
 /// Prepares a closed mesh for tracking, which takes about a second, and 13 with 500,000 triangles. The frame of the
 /// object is that of the mesh.
 KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id);
+
+/// The fraction of the samples that a motion moves farther than `distance` [m] away from the surface.
+double moved_share(const DistanceGrid& grid, std::span<const SurfaceSample> samples, const SE3& T_object_object,
+                   double distance);
 
 /// Samples spread evenly over the surface of a mesh, in random order; the same for every call.
 std::vector<SurfaceSample> sample_surface(const ObjectMesh& mesh);

@@ -56,12 +56,8 @@ PosePrior anywhere_near(const SE3& T) {
 
 bool changes_little(const KnownObject& object, const SE3& T_object_object) {
   if (log_so3(T_object_object.R).norm() < kSmallTurn) return true;
-  const Eigen::Matrix3f R = T_object_object.R.cast<float>();
-  const Vector3f t = T_object_object.t.cast<float>();
   const auto samples = std::span(object.samples).first(std::min(kSamples, object.samples.size()));
-  const auto moved = std::ranges::count_if(
-      samples, [&](const SurfaceSample& sample) { return std::abs(object.grid.distance(R * sample.p + t)) > kMoved; });
-  return static_cast<double>(moved) < kFewMoved * static_cast<double>(samples.size());
+  return moved_share(object.grid, samples, T_object_object, kMoved) < kFewMoved;
 }
 
 bool PoseQuality::acceptable() const {
