@@ -117,9 +117,8 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
         const double raw = depth(u, v);
         if (std::abs(raw - centre.z()) > object.radius + reach || of_hand(u, v)) continue;
         const double z = smoothed(u, v);
-        if (at_edge(u, v, z)) continue;
         const Vector3d p = camera.unproject(u, v, z);
-        if (object.grid.distance((T_object_camera * p).cast<float>()) > reach) continue;
+        if (object.grid.distance((T_object_camera * p).cast<float>()) > reach || at_edge(u, v, z)) continue;
         points.push_back(p.cast<float>());
       }
   };
