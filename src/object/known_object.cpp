@@ -21,10 +21,10 @@ constexpr double kMoved = 0.008, kLeastMoved = 0.02, kMostMoved = 0.3;
 constexpr int kTurns = 12;
 
 /// The turns of KnownObject::turns.
-std::vector<SE3> turns_about_round_axes(const std::array<SE3, 3>& half_turns, const DistanceGrid& grid,
+std::vector<SE3> turns_of_little_change(const ObjectMesh& mesh, const DistanceGrid& grid,
                                         std::span<const SurfaceSample> samples) {
   std::vector<SE3> turns;
-  for (const SE3& half : half_turns) {
+  for (const SE3& half : half_turns(mesh)) {
     const Vector3d axis = log_so3(half.R).normalized(), middle = 0.5 * half.t;
     const auto turned = [&](double angle) -> SE3 {
       const Eigen::Matrix3d R = exp_so3(angle * axis);
@@ -32,7 +32,10 @@ std::vector<SE3> turns_about_round_axes(const std::array<SE3, 3>& half_turns, co
     };
 
     const double share = moved_share(grid, samples, turned(std::numbers::pi / 2), kMoved);
-    if (share < kLeastMoved || share > kMostMoved) continue;
+    if (share < kLeastMoved || share > kMostMoved) {
+      turns.push_back(half);
+      continue;
+    }
     for (int k = 1; k < kTurns; ++k) turns.push_back(turned(2 * std::numbers::pi * k / kTurns));
   }
   return turns;
@@ -94,10 +97,9 @@ KnownObjectPtr make_known_object(const ObjectMesh& mesh, std::int32_t id) {
 
   // Leave out the samples of one part of the object that lie inside another part.
   std::erase_if(samples, [&](const SurfaceSample& sample) { return grid.distance(sample.p) < -cell; });
-  const std::array<SE3, 3> halves = half_turns(mesh);
-  std::vector<SE3> turns = turns_about_round_axes(halves, grid, samples);
-  return std::make_shared<KnownObject>(KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent,
-                                                   radius, halves, std::move(turns)});
+  std::vector<SE3> turns = turns_of_little_change(mesh, grid, samples);
+  return std::make_shared<KnownObject>(
+      KnownObject{mesh.name, id, std::move(grid), std::move(samples), centre, extent, radius, std::move(turns)});
 }
 
 }  // namespace barehand

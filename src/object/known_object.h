@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,9 +24,9 @@ struct KnownObject {
   Eigen::Vector3d centre;              ///< centre of the bounding box
   Eigen::Vector3d extent;              ///< size of the bounding box [m]
   double radius = 0;                   ///< all of the surface is within this distance of the centre [m]
-  std::array<SE3, 3> half_turns;       ///< as half_turns() of its mesh
-  /// Turns about the same axes, 30 degrees apart, about those around which only a part of the surface is not round,
-  /// such as the handle of a mug: T_object_object.
+  /// The turns that change little of what shows of it, T_object_object: those of half_turns() of its mesh, and about an
+  /// axis around which only a part of the surface is not round, such as the handle of a mug, all that are multiples of
+  /// 30 degrees.
   std::vector<SE3> turns;
 };
 using KnownObjectPtr = std::shared_ptr<const KnownObject>;

@@ -219,7 +219,7 @@ KnownObjectPtr make_round_object(const RoundShape& shape, std::int32_t id) {
   const Vector3d reach = shape.half_length * shape.axis.cwiseAbs() + shape.radius * sides.matrix();
   DistanceGrid grid(distance, shape.centre - reach, shape.centre + reach, kCell);
   return std::make_shared<KnownObject>(
-      KnownObject{"round", id, std::move(grid), {}, shape.centre, 2 * reach, reach.norm(), {}, {}});
+      KnownObject{"round", id, std::move(grid), {}, shape.centre, 2 * reach, reach.norm(), {}});
 }
 
 }  // namespace barehand

@@ -22,9 +22,10 @@ constexpr int kTrial = 30;            // frames in which several hypotheses are 
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
 constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was found to the next search [us]
-// Least time from one search to the next, at first and once they have been in vain for kVain [us].
-constexpr std::int64_t kSearchEvery = 60'000, kSearchRarely = 120'000, kVain = 2'000'000;
-constexpr double kLongestStep = 0.2;  // frames farther apart than this have nothing to do with each other [s]
+// Time over which the work of the longest search is spread, at first and once searches have been in vain for kVain [s].
+constexpr double kSearch = 0.1, kRareSearch = 0.2;
+constexpr std::int64_t kVain = 2'000'000;  // [us]
+constexpr double kLongestStep = 0.2;       // frames farther apart than this have nothing to do with each other [s]
 // A pose is given up if less of the object shows, if more of what should be seen is seen through, or if more of the
 // outline is none.
 constexpr double kLeastShown = 0.2, kMostContradicted = 0.15, kMostContinued = 0.35;
@@ -146,55 +147,71 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
   return true;
 }
 
-/// Searches for the object around one place: in turn between the fingers and around the hands. Returns whether it was
-/// found.
-bool KnownObjectTracker::find(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
+/// Goes on with the search that is under way, or begins one: in turn between the fingers and around the hands. Returns
+/// whether the object was found.
+bool KnownObjectTracker::find(std::int64_t utime, double dt, const ObservedDepth& view, const HandEstimates& estimates,
                               std::span<const Vector3f> points) {
-  if (points.empty()) return false;
-  if (searches_ == 0) first_search_ = utime;
-  const std::int64_t pause = std::abs(utime - first_search_) > kVain ? kSearchRarely : kSearchEvery;
-  if (searches_ > 0 && std::abs(utime - last_search_) < pause) return false;
-  last_search_ = utime;
+  if (!search_.under_way()) {
+    if (points.empty()) return false;
+    if (searches_ == 0) first_search_ = utime;
 
-  // Search in turn between the fingers of a hand, and at one of the given points, which are about evenly spread.
-  Vector3f seed = points[(static_cast<std::size_t>(searches_) * 7919) % points.size()];
-  const HandEstimate& hand = *estimates[static_cast<std::size_t>(searches_ / 2) % estimates.size()];
-  if (searches_ % 2 == 0 && hand.status == TrackStatus::tracking) {
-    seed.setZero();
-    for (int finger = 0; finger < kFingerCount; ++finger)
-      seed += hand.segments[segment_of(finger, 2)].T_camera_segment.t.cast<float>() / kFingerCount;
+    // Search in turn between the fingers of a hand, and at one of the given points, which are about evenly spread.
+    Vector3f seed = points[(static_cast<std::size_t>(searches_) * 7919) % points.size()];
+    const HandEstimate& hand = *estimates[static_cast<std::size_t>(searches_ / 2) % estimates.size()];
+    if (searches_ % 2 == 0 && hand.status == TrackStatus::tracking) {
+      seed.setZero();
+      for (int finger = 0; finger < kFingerCount; ++finger)
+        seed += hand.segments[segment_of(finger, 2)].T_camera_segment.t.cast<float>() / kFingerCount;
+    }
+    ++searches_;
+    begin_search(utime, view, estimates, points, seed);
   }
 
-  // Search around the seed; a found object starts at rest.
-  ++searches_;
-  const auto found = search_.search(*object_, view, points, seed);
-  if (found.empty()) return false;
+  // Do a part of the search.
+  const double duration = std::abs(utime - first_search_) > kVain ? kRareSearch : kSearch;
+  if (!search_.advance(dt / duration) || search_.found().empty()) return false;
+
+  // Follow what was found, at rest or with a palm, from the frame in which the search began.
   hypotheses_.clear();
   searches_ = 0;
   found_ = utime;
   look_ = kFirstLook;
-  follow_also(found);
-  return true;
+  follow_also({});
+  palms_ = palms_then_;
+  return follow(static_cast<double>(std::abs(utime - search_began_)) * 1e-6, view, estimates, points);
 }
 
 /// Searches where the object is followed.
-void KnownObjectTracker::look_again(std::int64_t utime, const ObservedDepth& view, std::span<const Vector3f> points) {
-  if (std::abs(utime - found_) < look_) return;
-  look_ *= 2;
-  const Vector3f middle = (hypotheses_.front().T * object_->centre).cast<float>();
-  follow_also(search_.search(*object_, view, points, middle));
+void KnownObjectTracker::look_again(std::int64_t utime, double dt, const ObservedDepth& view,
+                                    const HandEstimates& estimates, std::span<const Vector3f> points) {
+  if (!search_.under_way()) {
+    if (std::abs(utime - found_) < look_) return;
+    look_ *= 2;
+    begin_search(utime, view, estimates, points, (hypotheses_.front().T * object_->centre).cast<float>());
+  }
+
+  // What is found has moved since as what is followed has.
+  const Hypothesis& first = hypotheses_.front();
+  if (search_.advance(dt / kSearch)) follow_also(first.T * first.T_then.inverse());
 }
 
-/// Follows the poses that differ from those that are followed, with the velocity of the first one. If there are any,
-/// all are compared from now on.
-void KnownObjectTracker::follow_also(std::span<const FoundPose> found) {
+void KnownObjectTracker::begin_search(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
+                                      std::span<const Vector3f> points, const Vector3f& seed) {
+  search_.begin(view, points, seed);
+  search_began_ = utime;
+  palms_then_ = palms_of(estimates);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.T_then = hypothesis.T;
+}
+
+/// Follows the poses that were found and have moved since, if they differ from those that are followed, with the
+/// velocity of the first one. If there are any, all are compared from now on.
+void KnownObjectTracker::follow_also(const SE3& moved) {
   const std::size_t before = hypotheses_.size();
-  for (const FoundPose& pose : found) {
-    const auto same = [&](const Hypothesis& other) {
-      return changes_little(*object_, other.T.inverse() * pose.T_camera_object);
-    };
+  for (const FoundPose& pose : search_.found()) {
+    const SE3 T = moved * pose.T_camera_object;
+    const auto same = [&](const Hypothesis& other) { return changes_little(*object_, other.T.inverse() * T); };
     if (std::ranges::any_of(hypotheses_, same)) continue;
-    Hypothesis hypothesis{.T = pose.T_camera_object, .covariance = diagonal(kFreeShift, kFreeTurn)};
+    Hypothesis hypothesis{.T = T, .T_then = T, .covariance = diagonal(kFreeShift, kFreeTurn)};
     if (!hypotheses_.empty()) hypothesis.velocity = hypotheses_.front().velocity;
     hypotheses_.push_back(hypothesis);
   }
@@ -203,29 +220,32 @@ void KnownObjectTracker::follow_also(std::span<const FoundPose> found) {
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.misfit = 0;
 }
 
-void KnownObjectTracker::store_palms(std::int64_t utime, const HandEstimates& estimates) {
-  utime_ = utime;
-  palms_.clear();
+KnownObjectTracker::Palms KnownObjectTracker::palms_of(const HandEstimates& estimates) {
+  Palms palms;
   for (const HandEstimatePtr& estimate : estimates)
     if (estimate->status == TrackStatus::tracking)
-      palms_[estimate->hand_id] = estimate->segments[kPalm].T_camera_segment;
+      palms[estimate->hand_id] = estimate->segments[kPalm].T_camera_segment;
+  return palms;
 }
 
 std::optional<ObjectEstimate> KnownObjectTracker::process(std::int64_t utime, const ObservedDepth& view,
                                                           const HandEstimates& estimates,
                                                           std::span<const Vector3f> points) {
-  // Follow the object, or search for it.
-  const double dt = static_cast<double>(utime - utime_) * 1e-6;
-  if (std::abs(dt) > kLongestStep || std::abs(utime - seen_) > kForgotten) {
+  // Frames that are far apart have nothing to do with each other.
+  const double dt = static_cast<double>(std::abs(utime - utime_)) * 1e-6;
+  if (dt > kLongestStep) search_.stop();
+  if (dt > kLongestStep || std::abs(utime - seen_) > kForgotten) {
     hypotheses_.clear();
     holding_ = {};
   }
-  bool seen = !hypotheses_.empty() && follow(std::abs(dt), view, estimates, points);
-  const bool found = !seen && find(utime, view, estimates, points);
-  if (found) seen = follow(0, view, {}, points);
-  if (seen) look_again(utime, view, points);
-  store_palms(utime, estimates);
-  if (!seen) return std::nullopt;
+
+  // Follow the object, or search for it.
+  const bool followed = !hypotheses_.empty() && follow(dt, view, estimates, points);
+  const bool found = !followed && find(utime, dt, view, estimates, points);
+  if (followed) look_again(utime, dt, view, estimates, points);
+  utime_ = utime;
+  palms_ = palms_of(estimates);
+  if (!followed && !found) return std::nullopt;
   seen_ = utime;
 
   // Fill in the estimate. A velocity needs two frames.

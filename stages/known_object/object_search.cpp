@@ -14,11 +14,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kOrientations = 500;                 // about 20 degrees apart
-constexpr std::size_t kFewPoints = 80;             // number of points and samples with which orientations are compared
-constexpr std::size_t kLeastPoints = 25;           // least number of points around a place that is searched
-constexpr int kShifts = 4;                         // steps by which an orientation is moved into place
-constexpr int kComparedPoses = 60, kRefined = 12;  // orientations that are compared with free space, and refined
+constexpr int kOrientations = 500;        // about 20 degrees apart
+constexpr std::size_t kFewPoints = 80;    // number of points and samples with which orientations are compared
+constexpr std::size_t kLeastPoints = 25;  // least number of points around a place that is searched
+constexpr int kShifts = 4;                // steps by which an orientation is moved into place
+constexpr std::size_t kComparedPoses = 60,
+                      kRefined = 12;  // orientations that are compared with free space, and refined
 constexpr int kFewIterations = 6, kSearchIterations = 12;
 constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
 constexpr double kOnSurface = 0.006, kSearchReach = 0.015;
@@ -26,6 +27,8 @@ constexpr std::size_t kSamples = 300;
 constexpr double kLeastShownAtStart = 0.2, kMaxInconsistent = 0.1, kLeastExplained = 0.65;
 constexpr double kMostContinuedAtStart = 0.15;  // of the outline; more is a part of something larger
 constexpr int kLeastSeen = 15;
+// What a refinement takes, and a whole search at most, if trying an orientation takes 1.
+constexpr int kWorkOfRefinement = 16, kWork = kOrientations + 45 * kWorkOfRefinement;
 // Two poses are the same if they are turned by less than kSmallTurn from each other, or if less than kFewMoved of the
 // surface moves by more than kMoved [m].
 constexpr double kSmallTurn = 20 * kDegree, kMoved = 0.004, kFewMoved = 0.02;
@@ -51,6 +54,8 @@ PosePrior anywhere_near(const SE3& T) {
   prior.information.diagonal() << Vector3d::Constant(1 / (kShift * kShift)), Vector3d::Constant(1 / (kTurn * kTurn));
   return prior;
 }
+
+double cost(const FoundPose& pose) { return pose.quality.cost(); }
 
 }  // namespace
 
@@ -89,40 +94,40 @@ PoseQuality quality_of(const KnownObject& object, const ObservedDepth& view, con
   return quality;
 }
 
-ObjectSearch::ObjectSearch() : orientations_(spiral(kOrientations)) {}
+ObjectSearch::ObjectSearch(KnownObjectPtr object) : object_(std::move(object)), orientations_(spiral(kOrientations)) {}
 
 /// Moves an orientation so that the side that it shows lies over the middle of the points, and refines it on the few.
-SE3 ObjectSearch::place(const KnownObject& object, const Eigen::Matrix3d& R, const Vector3d& middle) const {
-  const Vector3f view = (R.transpose() * middle.normalized()).cast<float>();
+SE3 ObjectSearch::place(const Eigen::Matrix3d& R) const {
+  const Vector3f view = (R.transpose() * middle_.normalized()).cast<float>();
   Vector3f shown = Vector3f::Zero();
   float count = 0;
-  for (std::size_t i = 0; i < std::min(kFewPoints, object.samples.size()); ++i)
-    if (object.samples[i].n.dot(view) < 0) shown += object.samples[i].p, ++count;
-  const SE3 start{R, middle - R * (shown / std::max(1.f, count)).cast<double>()};
-  return fit_pose(object, few_, kScale / 3, start, anywhere_near(start), kFewIterations).T_camera_object;
+  for (std::size_t i = 0; i < std::min(kFewPoints, object_->samples.size()); ++i)
+    if (object_->samples[i].n.dot(view) < 0) shown += object_->samples[i].p, ++count;
+  const SE3 start{R, middle_ - R * (shown / std::max(1.f, count)).cast<double>()};
+  return fit_pose(*object_, few_, kScale / 3, start, anywhere_near(start), kFewIterations).T_camera_object;
 }
 
 /// How badly a pose fits the few points: between 0 and 1.
-double ObjectSearch::misfit(const KnownObject& object, const SE3& T) const {
+double ObjectSearch::misfit(const SE3& T) const {
   const SE3 T_object_camera = T.inverse();
   const Eigen::Matrix3f R = T_object_camera.R.cast<float>();
   const Vector3f t = T_object_camera.t.cast<float>();
   double sum = 0;
   for (const Vector3f& p : few_) {
-    const double d = object.grid.distance(R * p + t);
+    const double d = object_->grid.distance(R * p + t);
     sum += d * d / (kScale * kScale + d * d);
   }
   return sum / static_cast<double>(few_.size());
 }
 
 /// Collects the points that the object could cover if it were at the place, and moves the place to their middle.
-Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3f> points, Vector3f middle) {
+Vector3f ObjectSearch::gather(Vector3f middle) {
   // Shift the middle to the mean of the points around it.
-  const auto radius_sq = static_cast<float>(object.radius * object.radius);
+  const auto radius_sq = static_cast<float>(object_->radius * object_->radius);
   for (int i = 0; i < kShifts; ++i) {
     around_.clear();
     Vector3f sum = Vector3f::Zero();
-    for (const Vector3f& p : points) {
+    for (const Vector3f& p : points_) {
       if ((p - middle).squaredNorm() > radius_sq) continue;
       around_.push_back(p);
       sum += p;
@@ -140,57 +145,81 @@ Vector3f ObjectSearch::gather(const KnownObject& object, std::span<const Vector3
   return middle;
 }
 
-/// Refines a pose, and appends it to found_ if it is acceptable.
-void ObjectSearch::refine(const KnownObject& object, const ObservedDepth& view, std::span<const Vector3f> points,
-                          const SE3& start) {
-  near_.assign(few_.begin(), few_.end());
-  view.points_near(object, start, kSearchReach, 4 * kFewPoints, near_);
-  const SE3 T = fit_pose(object, near_, kScale / 3, start, anywhere_near(start), kSearchIterations).T_camera_object;
-  const FoundPose pose{T, quality_of(object, view, T, points)};
-  if (pose.quality.acceptable() && view.continued(object, T) <= kMostContinuedAtStart) found_.push_back(pose);
+void ObjectSearch::begin(const ObservedDepth& view, std::span<const Vector3f> points, const Vector3f& seed) {
+  view_.reset();
+  points_.assign(points.begin(), points.end());
+  middle_ = gather(seed).cast<double>();
+  tried_.clear();
+  starts_.clear();
+  refined_ = 0;
+  found_.clear();
+  if (around_.size() >= kLeastPoints) view_ = view;
 }
 
-std::span<const FoundPose> ObjectSearch::search(const KnownObject& object, const ObservedDepth& view,
-                                                std::span<const Vector3f> points, const Vector3f& seed) {
-  const Vector3d middle = gather(object, points, seed).cast<double>();
-  if (around_.size() < kLeastPoints) return {};
+bool ObjectSearch::advance(double share) {
+  for (double work = share * kWork; work > 0;) {
+    // Try the orientations, then refine the best ones, and what they might be mistaken for.
+    if (tried_.size() < orientations_.size()) {
+      const SE3 T = place(orientations_[tried_.size()]);
+      tried_.emplace_back(misfit(T), T);
+      if (tried_.size() == orientations_.size()) choose_starts();
+      work -= 1;
+    } else {
+      refine(starts_[refined_++]);
+      if (refined_ == kRefined) add_turns();
+      work -= kWorkOfRefinement;
+    }
+    if (refined_ < kRefined || refined_ < starts_.size()) continue;
 
-  // Try the orientations; check for the better ones also whether the camera sees through them.
-  std::vector<std::pair<double, SE3>> tried;
-  for (const Eigen::Matrix3d& R : orientations_) {
-    const SE3 T = place(object, R, middle);
-    tried.emplace_back(misfit(object, T), T);
+    // Nothing is left to do.
+    choose();
+    stop();
+    return true;
   }
+  return false;
+}
 
-  // Keep the better ones by their misfit alone, then the best ones with the view compared as well.
+/// Chooses the orientations that are refined.
+void ObjectSearch::choose_starts() {
+  // Keep the better ones by their misfit alone.
+  auto tried = tried_;
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::nth_element(tried.begin(), tried.begin() + kComparedPoses, tried.end(), less);
   tried.resize(kComparedPoses);
-  for (auto& [cost, T] : tried) cost += view.visibility(object, T, kFewPoints).inconsistent();
+
+  // Of these, keep the best ones with the view compared as well: the camera must not see through them.
+  for (auto& [cost, T] : tried) cost += view_->visibility(*object_, T, kFewPoints).inconsistent();
   std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
-  tried.resize(kRefined);
+  for (std::size_t i = 0; i < kRefined; ++i) starts_.push_back(tried[i].second);
+}
 
-  // Refine the best ones, and keep those that are visible and consistent and explain the points.
-  found_.clear();
-  for (const auto& [cost, start] : tried) refine(object, view, points, start);
-  if (found_.empty()) return {};
+/// Refines a pose, and appends it to found_ if it is visible and consistent and explains the points.
+void ObjectSearch::refine(const SE3& start) {
+  near_.assign(few_.begin(), few_.end());
+  view_->points_near(*object_, start, kSearchReach, 4 * kFewPoints, near_);
+  const SE3 T = fit_pose(*object_, near_, kScale / 3, start, anywhere_near(start), kSearchIterations).T_camera_object;
+  const FoundPose pose{T, quality_of(*object_, *view_, T, points_)};
+  if (pose.quality.acceptable() && view_->continued(*object_, T) <= kMostContinuedAtStart) found_.push_back(pose);
+}
 
-  // The best one may be wrong by half a turn that changes little of what shows.
-  const auto cost = [](const FoundPose& pose) { return pose.quality.cost(); };
+/// The best pose may be wrong by a turn that changes little of what shows.
+void ObjectSearch::add_turns() {
+  if (found_.empty()) return;
   const SE3 best = std::ranges::min_element(found_, {}, cost)->T_camera_object;
-  for (const SE3& turn : object.half_turns) refine(object, view, points, best * turn);
-  for (const SE3& turn : object.turns) refine(object, view, points, best * turn);
-  std::ranges::sort(found_, {}, cost);
+  for (const SE3& turn : object_->turns) starts_.push_back(best * turn);
+}
 
-  // Leave out what is almost the same as a better one.
+/// Sorts what was found, and leaves out what is almost the same as a better one.
+void ObjectSearch::choose() {
+  std::ranges::sort(found_, {}, cost);
   std::size_t kept = 0;
   for (const FoundPose& pose : found_) {
     const auto same = [&](const FoundPose& better) {
-      return changes_little(object, better.T_camera_object.inverse() * pose.T_camera_object);
+      return changes_little(*object_, better.T_camera_object.inverse() * pose.T_camera_object);
     };
     if (kept < kMostPoses && std::none_of(found_.begin(), found_.begin() + kept, same)) found_[kept++] = pose;
   }
-  return {found_.data(), kept};
+  found_.resize(kept);
 }
 
 }  // namespace barehand

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,25 +25,43 @@ struct FoundPose {
 };
 
 /// Looks for an object around a place without any idea of its pose: tries hundreds of orientations, moves each until it
-/// fits, and refines the best ones. The result depends on the points only. Reuses its memory, that of the result, too.
+/// fits, and refines the best ones. Since that takes 10 to 60 ms, it can be done in parts, while other frames pass. The
+/// result depends on the frame in which the search began only. Reuses its memory.
 class ObjectSearch {
  public:
-  ObjectSearch();
-  /// The poses that agree with the frame, the best one first: at most kMostPoses, with surfaces that differ. `points`:
-  /// of everything that may be the object; `seed`: the place [m].
-  std::span<const FoundPose> search(const KnownObject& object, const ObservedDepth& view,
-                                    std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
+  explicit ObjectSearch(KnownObjectPtr object);
+  /// Begins to search in a frame, in place of any search that is under way. `points`: of everything that may be the
+  /// object; `seed`: the place [m]. If there are too few points around it, nothing is under way.
+  void begin(const ObservedDepth& view, std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
+  bool under_way() const { return view_.has_value(); }
+  /// Does a share of the work of the search that is under way; 1 is all of it. Whether the search is at its end.
+  bool advance(double share);
+  void stop() { view_.reset(); }
+  /// What the search that came to its end found: the poses that agree with its frame, the best one first, at most
+  /// kMostPoses, with surfaces that differ.
+  std::span<const FoundPose> found() const { return found_; }
   static constexpr std::size_t kMostPoses = 3;
 
  private:
-  SE3 place(const KnownObject& object, const Eigen::Matrix3d& R, const Eigen::Vector3d& middle) const;
-  Eigen::Vector3f gather(const KnownObject& object, std::span<const Eigen::Vector3f> points, Eigen::Vector3f middle);
-  double misfit(const KnownObject& object, const SE3& T) const;
-  void refine(const KnownObject& object, const ObservedDepth& view, std::span<const Eigen::Vector3f> points,
-              const SE3& start);
+  SE3 place(const Eigen::Matrix3d& R) const;
+  Eigen::Vector3f gather(Eigen::Vector3f middle);
+  double misfit(const SE3& T) const;
+  void choose_starts();
+  void refine(const SE3& start);
+  void add_turns();
+  void choose();
 
+  KnownObjectPtr object_;
   std::vector<Eigen::Matrix3d> orientations_;
-  std::vector<Eigen::Vector3f> around_, few_, near_;  // points around the place, a few of them, points near a pose
+
+  std::optional<ObservedDepth> view_;          // of the search that is under way
+  std::vector<Eigen::Vector3f> points_;        // of everything that may be the object
+  std::vector<Eigen::Vector3f> around_, few_;  // points around the place, a few of them
+  Eigen::Vector3d middle_;                     // of the points around the place
+  std::vector<std::pair<double, SE3>> tried_;  // orientations in place, with their misfit
+  std::vector<SE3> starts_;                    // poses to refine
+  std::size_t refined_ = 0;                    // how many of them were
+  std::vector<Eigen::Vector3f> near_;          // points near a pose
   std::vector<FoundPose> found_;
 };
 

@@ -49,9 +49,9 @@ std::array<Eigen::Vector2d, kDirections> directions_around() {
 
 }  // namespace
 
-ObservedDepth::ObservedDepth(const HandObservations& observations)
-    : observations_(observations), frame_(*observations.front()->frame) {
-  for (const auto& observation : observations) noise_ = std::max(noise_, observation->noise);
+ObservedDepth::ObservedDepth(HandObservations observations)
+    : observations_(std::move(observations)), frame_(observations_.front()->frame.get()) {
+  for (const auto& observation : observations_) noise_ = std::max(noise_, observation->noise);
 }
 
 bool ObservedDepth::of_hand(int u, int v) const {
@@ -62,7 +62,7 @@ bool ObservedDepth::of_hand(int u, int v) const {
 }
 
 double ObservedDepth::depth(int u, int v) const {
-  return frame_.depth.contains(u, v) ? frame_.depth.at(u, v) * frame_.depth_unit : 0;
+  return frame_->depth.contains(u, v) ? frame_->depth.at(u, v) * frame_->depth_unit : 0;
 }
 
 /// The mean depth of a pixel and those of its neighbours that seem to be of the same surface [m]; 0: no measurement.
@@ -95,7 +95,7 @@ bool ObservedDepth::at_edge(int u, int v, double z) const {
 void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_object, double reach, std::size_t most,
                                 std::vector<Vector3f>& points) const {
   // Find the part of the image that the object can be in.
-  const Intrinsics& camera = frame_.camera;
+  const Intrinsics& camera = frame_->camera;
   const Vector3d centre = T_camera_object * object.centre;
   if (centre.z() < object.radius + 0.05) return;
   const Eigen::Vector2d middle = camera.project(centre);
@@ -169,7 +169,7 @@ Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_cam
   Visibility visibility;
   const double alike = kAlike + 2 * noise_;
   visit_visible(object, T_camera_object, samples, [&](const Vector3d& p, const Vector3d&) {
-    const Eigen::Vector2d pixel = frame_.camera.project(p);
+    const Eigen::Vector2d pixel = frame_->camera.project(p);
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
     ++(visibility.*shows(u, v, p.z(), alike));
   });
@@ -185,7 +185,7 @@ double ObservedDepth::continued(const KnownObject& object, const SE3& T_camera_o
   std::array<Last, kDirections> last;
   static const std::array<Eigen::Vector2d, kDirections> directions = directions_around();
   visit_visible(object, T_camera_object, object.samples.size(), [&](const Vector3d& p, const Vector3d& normal) {
-    const Eigen::Vector2d pixel = frame_.camera.project(p);
+    const Eigen::Vector2d pixel = frame_->camera.project(p);
     for (std::size_t k = 0; k < kDirections; ++k)
       if (const double along = directions[k].dot(pixel); along > last[k].along) last[k] = {along, p, normal};
   });
@@ -193,11 +193,11 @@ double ObservedDepth::continued(const KnownObject& object, const SE3& T_camera_o
   // What a pixel shows of the plane through a place: -1 nothing is known, 0 another surface, 1 the plane.
   const auto shows_plane = [&](const Last& place, double beyond, std::size_t k) {
     const Eigen::Vector2d pixel =
-        frame_.camera.project(place.p) + beyond * frame_.camera.fx / place.p.z() * directions[k];
+        frame_->camera.project(place.p) + beyond * frame_->camera.fx / place.p.z() * directions[k];
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
     const double measured = smoothed(u, v);
     if (measured <= 0 || of_hand(u, v)) return -1;
-    const Vector3d ray = frame_.camera.unproject(pixel.x(), pixel.y(), 1);
+    const Vector3d ray = frame_->camera.unproject(pixel.x(), pixel.y(), 1);
     const double z = place.normal.dot(place.p) / place.normal.dot(ray);
     return std::abs(measured - z) < kInPlane + 2 * noise_ ? 1 : 0;
   };

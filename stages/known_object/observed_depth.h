@@ -24,10 +24,10 @@ struct Visibility {
   }
 };
 
-/// The depth of one frame without its hands. The observations must be of one frame.
+/// The depth of one frame without its hands. It shares the observations, which must be of one frame.
 class ObservedDepth {
  public:
-  explicit ObservedDepth(const HandObservations& observations);
+  explicit ObservedDepth(HandObservations observations);
 
   /// Appends points that are no hand's and at most `reach` from the surface of the posed object, `most` at most. Pixels
   /// at the edge of a surface are left out.
@@ -50,8 +50,8 @@ class ObservedDepth {
   bool at_edge(int u, int v, double z) const;
   int Visibility::*shows(int u, int v, double z, double alike) const;
 
-  const HandObservations& observations_;
-  const RgbdFrame& frame_;
+  HandObservations observations_;
+  const RgbdFrame* frame_;  // of the observations
   double noise_ = 0.001;
 };
 

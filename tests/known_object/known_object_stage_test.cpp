@@ -96,6 +96,28 @@ TEST_F(KnownObjects, AreFoundAndFollowed) {
   EXPECT_LT((state->velocity.head<3>() * kFrame * 1e-6 - twist.head<3>()).norm(), 0.002);
 }
 
+TEST_F(KnownObjects, AreFoundWhileAHandMovesThem) {
+  look_for(test::hammer_mesh());
+  scene_.object = nullptr;
+  for (int i = 0; i < 3; ++i) ASSERT_FALSE(next());
+
+  // A search takes some frames; what it finds has moved by 0.4 m/s since.
+  scene_.object = object_.get();
+  Vector6d twist;
+  twist << 0.012, -0.003, -0.006, 2 * kDegree, 5 * kDegree, 3 * kDegree;
+  std::optional<ObjectEstimate> state;
+  int frames = 0;
+  for (; !state && frames < 10; ++frames) {
+    if (frames == 5) twist *= -1;
+    move(twist);
+    state = next();
+  }
+  ASSERT_TRUE(state);
+  EXPECT_GT(frames, 1);
+  EXPECT_LT(shift(*state), 0.002);
+  EXPECT_LT(turn(*state), 2 * kDegree);
+}
+
 TEST_F(KnownObjects, TakeThePlaceOfWhatTheyAre) {
   look_for(test::hammer_mesh());
   while (!next() && utime_ < 2'000'000) continue;
