@@ -14,12 +14,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kOrientations = 500;        // about 20 degrees apart
-constexpr std::size_t kFewPoints = 80;    // number of points and samples with which orientations are compared
-constexpr std::size_t kLeastPoints = 25;  // least number of points around a place that is searched
-constexpr int kShifts = 4;                // steps by which an orientation is moved into place
-constexpr std::size_t kComparedPoses = 60,
-                      kRefined = 12;  // orientations that are compared with free space, and refined
+constexpr int kOrientations = 500;          // about 20 degrees apart
+constexpr std::size_t kFewPoints = 80;      // number of points and samples with which orientations are compared
+constexpr std::size_t kLeastPoints = 25;    // least number of points around a place that is searched
+constexpr int kShifts = 4;                  // steps by which an orientation is moved into place
+constexpr std::size_t kComparedPoses = 60;  // orientations that are compared with free space
+constexpr std::size_t kRefined = 12;        // of these, those that are refined
 constexpr int kFewIterations = 6, kSearchIterations = 12;
 constexpr double kScale = 0.008;  // errors larger than this count as outliers [m]
 constexpr double kOnSurface = 0.006, kSearchReach = 0.015;
@@ -157,9 +157,10 @@ void ObjectSearch::begin(const ObservedDepth& view, std::span<const Vector3f> po
 }
 
 bool ObjectSearch::advance(double share) {
+  if (!under_way()) return false;
   for (double work = share * kWork; work > 0;) {
     // Try the orientations, then refine the best ones, and what they might be mistaken for.
-    if (tried_.size() < orientations_.size()) {
+    if (starts_.empty()) {
       const SE3 T = place(orientations_[tried_.size()]);
       tried_.emplace_back(misfit(T), T);
       if (tried_.size() == orientations_.size()) choose_starts();
@@ -182,15 +183,14 @@ bool ObjectSearch::advance(double share) {
 /// Chooses the orientations that are refined.
 void ObjectSearch::choose_starts() {
   // Keep the better ones by their misfit alone.
-  auto tried = tried_;
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::nth_element(tried.begin(), tried.begin() + kComparedPoses, tried.end(), less);
-  tried.resize(kComparedPoses);
+  std::nth_element(tried_.begin(), tried_.begin() + kComparedPoses, tried_.end(), less);
+  tried_.resize(kComparedPoses);
 
   // Of these, keep the best ones with the view compared as well: the camera must not see through them.
-  for (auto& [cost, T] : tried) cost += view_->visibility(*object_, T, kFewPoints).inconsistent();
-  std::partial_sort(tried.begin(), tried.begin() + kRefined, tried.end(), less);
-  for (std::size_t i = 0; i < kRefined; ++i) starts_.push_back(tried[i].second);
+  for (auto& [cost, T] : tried_) cost += view_->visibility(*object_, T, kFewPoints).inconsistent();
+  std::partial_sort(tried_.begin(), tried_.begin() + kRefined, tried_.end(), less);
+  for (std::size_t i = 0; i < kRefined; ++i) starts_.push_back(tried_[i].second);
 }
 
 /// Refines a pose, and appends it to found_ if it is visible and consistent and explains the points.

@@ -34,7 +34,7 @@ class ObjectSearch {
   /// object; `seed`: the place [m]. If there are too few points around it, nothing is under way.
   void begin(const ObservedDepth& view, std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& seed);
   bool under_way() const { return view_.has_value(); }
-  /// Does a share of the work of the search that is under way; 1 is all of it. Whether the search is at its end.
+  /// Does a share of the work of the search that is under way, if one is; 1 is all of it. Whether it came to its end.
   bool advance(double share);
   void stop() { view_.reset(); }
   /// What the search that came to its end found: the poses that agree with its frame, the best one first, at most
@@ -58,7 +58,7 @@ class ObjectSearch {
   std::vector<Eigen::Vector3f> points_;        // of everything that may be the object
   std::vector<Eigen::Vector3f> around_, few_;  // points around the place, a few of them
   Eigen::Vector3d middle_;                     // of the points around the place
-  std::vector<std::pair<double, SE3>> tried_;  // orientations in place, with their misfit
+  std::vector<std::pair<double, SE3>> tried_;  // orientations in place, with their misfit, until there are starts
   std::vector<SE3> starts_;                    // poses to refine
   std::size_t refined_ = 0;                    // how many of them were
   std::vector<Eigen::Vector3f> near_;          // points near a pose

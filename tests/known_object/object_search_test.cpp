@@ -95,6 +95,17 @@ TEST(ObjectSearch, InPartsItFindsTheSame) {
     EXPECT_EQ(in_parts[i].T_camera_object.R, whole[i].T_camera_object.R) << i;
 }
 
+TEST(ObjectSearch, AmongTooFewPointsNothingIsUnderWay) {
+  const KnownObjectPtr ball = make_known_object(test::ball_mesh(0.04f), 1);
+  test::ObjectScene scene;
+  const HandObservations observations{scene.observe(0)};
+  ObjectSearch search(ball);
+  search.begin(ObservedDepth(observations), std::vector<Vector3f>(10, {0, 0, 0.5f}), {0, 0, 0.5f});
+  EXPECT_FALSE(search.under_way());
+  EXPECT_FALSE(search.advance(1));
+  EXPECT_TRUE(search.found().empty());
+}
+
 TEST(ObjectSearch, TurnsOfASymmetricObjectAreOnePose) {
   const KnownObjectPtr ball = make_known_object(test::ball_mesh(0.04f), 1);
   test::ObjectScene scene;
