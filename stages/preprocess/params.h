@@ -13,7 +13,7 @@ struct PreprocessParams {
   double hand_reach = 0.08;
   double wrist_margin = 0.015;
   double object_reach = 0.05;
-  int margin_px = 48;
+  double margin = 0.05;
   int skew_px = 2;
   double skin_odds = 0.4;
   double other_odds = 1.4;
@@ -46,7 +46,9 @@ void visit(V& v, PreprocessParams& p) {
   // Declare the keys for the maps around the hand.
   v("object_reach", p.object_reach, 0.0, 0.5,
     "m, data other than the hand within this distance of it belongs to an object");
-  v("margin_px", p.margin_px, 40, 400, "px, margin around the hand within which the maps are computed");
+  v.retired("margin_px", "preprocess.margin");
+  v("margin", p.margin, 0.0, 0.5,
+    "m at the hand's distance and at least 48 px, margin around the hand within which objects are looked at");
   v("skew_px", p.skew_px, 0, 10,
     "px, distance from depth edges within which a colour may belong to the neighbouring surface");
 

@@ -14,6 +14,7 @@ constexpr float kSurelySkin = 0.004f;  // cells at most this far from the predic
 constexpr float kSurelyOther = 0.045f;
 // Cells of the coarse depth grid farther than this from a hand's centre cannot show that hand [m].
 constexpr float kSurroundings = 0.22f;
+constexpr int kLeastMargin = 48;  // around a hand that is far away [px]
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -143,6 +144,7 @@ void Preprocessor::describe_hand(HandObservation& out) {
 Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand& hand) const {
   const Intrinsics& camera = frame.camera;
   double u0 = camera.width, v0 = camera.height, u1 = 0, v1 = 0;
+  float nearest = static_cast<float>(params_.max_depth);
   const auto include = [&](double u, double v) {
     u0 = std::min(u0, u), u1 = std::max(u1, u);
     v0 = std::min(v0, v), v1 = std::max(v1, v);
@@ -155,6 +157,7 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
       if (hand.cells.at(c, r)) {
         include(c * step, r * step);
         include((c + 1) * step, (r + 1) * step);
+        if (grid_.z.at(c, r) > 0) nearest = std::min(nearest, grid_.z.at(c, r));
       }
 
   // Include the predicted hand, since the maps must also cover occluded fingers.
@@ -164,14 +167,16 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
         if (p.z() > params_.min_depth) {
           const Eigen::Vector2d pixel = camera.project(p.cast<double>());
           include(std::clamp(pixel.x(), 0.0, camera.width - 1.0), std::clamp(pixel.y(), 0.0, camera.height - 1.0));
+          nearest = std::min(nearest, p.z());
         }
 
   // Add the margin, and stay inside the image.
+  const int margin = std::max(kLeastMargin, static_cast<int>(params_.margin * camera.fx / nearest));
   Region region;
-  region.u0 = std::max(0, static_cast<int>(u0) - params_.margin_px);
-  region.v0 = std::max(0, static_cast<int>(v0) - params_.margin_px);
-  region.width = std::min(camera.width, static_cast<int>(u1) + params_.margin_px) - region.u0;
-  region.height = std::min(camera.height, static_cast<int>(v1) + params_.margin_px) - region.v0;
+  region.u0 = std::max(0, static_cast<int>(u0) - margin);
+  region.v0 = std::max(0, static_cast<int>(v0) - margin);
+  region.width = std::min(camera.width, static_cast<int>(u1) + margin) - region.u0;
+  region.height = std::min(camera.height, static_cast<int>(v1) + margin) - region.v0;
   return region;
 }
 

@@ -27,7 +27,7 @@ constexpr const char* kHowToScan =
     "Hold the object with your fingertips, and turn it slowly until every side has faced the sensor. Change the grip,\n"
     "so that the fingers uncover what they hide. Ctrl-C ends a live scan; what was seen until then is saved.";
 constexpr double kFine = 0.003, kCoarse = 0.006;  // triangle sizes for the saved mesh and for messages [m]
-constexpr int kScanMargin = 80;                   // least margin around the hand in which the object is observed [px]
+constexpr double kScanMargin = 0.08;              // least margin around the hand in which the object is observed [m]
 constexpr double kLittle = 0.3;                   // a mesh of which less than this fraction was seen is hardly useful
 
 struct ScanOptions {
@@ -103,7 +103,7 @@ int run_scan(const ScanOptions& o) {
   auto config = read_configuration(o.track.config);
   if (!config) return failed("scan-object", config.error(), kExitUsage);
   config->contact.enabled = true;
-  config->preprocess.margin_px = std::max(config->preprocess.margin_px, kScanMargin);
+  config->preprocess.margin = std::max(config->preprocess.margin, kScanMargin);
   if (const auto possible = check_name(o.out); !possible) return failed("scan-object", possible.error(), kExitUsage);
 
   // Track, and collect the objects.
