@@ -40,8 +40,8 @@ constexpr double kSureSide = 4;
 constexpr int kMirroredAttempts = 2;
 
 // A verification ends when one side has the advantage kVerificationAdvantage over at least kFewestFrames frames in
-// which both are tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, it is
-// searched in every kSearchAgain-th frame.
+// which both are tracked, and after kMostFrames at the latest. While the mirrored profile is not tracked, or explains
+// the frames badly, it is searched in every kSearchAgain-th frame.
 constexpr int kFewestFrames = 15, kMostFrames = 60, kSearchAgain = 10;
 // Number of successive searches that the profile's side must win after a verification has found the other side.
 constexpr int kToConfirm = 3;
@@ -124,9 +124,15 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
 void ProfileVerifier::track_mirrored(const HandObservation& observation) {
   Verification& verification = *verification_;
   const bool followed = mirrored_->view().status == TrackStatus::tracking;
-  if (!followed && verification.frames % kSearchAgain != 0) return;
-  verification.mirrored = followed ? mirrored_->process(observation)
-                                   : mirrored_->process(observation, mirrored_->search(observation, Effort::quick, 1));
+  const double score = !followed ? INFINITY : verification.mirrored ? verification.mirrored->score : 0;
+  const bool search = verification.frames % kSearchAgain == 0 && score > params_.choice.confident_score;
+  if (!followed && !search) return;
+
+  // Give the mirrored hand another pose if it has none, or one that explains the frame clearly worse.
+  std::optional<Hypothesis> found;
+  if (search) found = mirrored_->search(observation, Effort::quick, 1);
+  const bool better = !followed || (found && clearly_better(found->score(), score));
+  verification.mirrored = better ? mirrored_->process(observation, std::move(found)) : mirrored_->process(observation);
 }
 
 bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {

@@ -32,7 +32,6 @@ struct TrackerParams {
   int search_iterations = 12;
   int full_search_every = 10;
   int search_attempts = 16;
-  int ambiguous_search_every = 12;
   int ambiguous_near_every = 2;
   int near_iterations = 6;
   ChoiceParams choice;
@@ -85,9 +84,7 @@ void visit(V& v, TrackerParams& p) {
     "is good enough, three agree or, from eight on, all but one agree or none explains the frame");
 
   // These set how often a search follows an ambiguous pose.
-  v.formerly("doubt_every");
-  v("ambiguous_search_every", p.ambiguous_search_every, 1, 100000,
-    "of every n consecutive ambiguous frames the middle one is searched from templates");
+  for (const char* key : {"doubt_every", "ambiguous_search_every"}) v.without_effect(key);
   v.formerly("doubt_near_every");
   v("ambiguous_near_every", p.ambiguous_near_every, 1, 100000,
     "of every n consecutive ambiguous frames one is searched near the followed pose");

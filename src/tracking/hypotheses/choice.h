@@ -14,8 +14,6 @@ namespace barehand {
 struct ChoiceParams {
   // Advantages that other poses of a frame need over the followed one.
   double sampling_advantage = 0.02;
-  bool uncross_fingers = true;
-  double uncross_allowance = 0.05;
   double search_advantage = 0.1;
 
   // Absolute global scores [m].
@@ -34,13 +32,9 @@ struct ChoiceParams {
 
 template <class V>
 void visit(V& v, ChoiceParams& p) {
-  // These compare sampled and uncrossed poses with the followed one.
+  // This compares sampled poses with the followed one.
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
-  v.formerly("uncross");
-  v("uncross_fingers", p.uncross_fingers, "also test the followed pose with crossing fingers put side by side");
-  v("uncross_allowance", p.uncross_allowance, 0.0, 1.0,
-    "the pose with uncrossed fingers may have a global score that is higher by up to this fraction");
 
   // These compare the poses that a search found with the followed one.
   v("search_advantage", p.search_advantage, 0.0, 1.0,
@@ -72,7 +66,8 @@ void visit(V& v, ChoiceParams& p) {
     "factor on the score of a pose that a detection confirms; 1: no effect");
 
   // These were rules of which the ablation showed no effect.
-  for (const char* key : {"different_pose_advantage", "elsewhere_advantage", "rejection_factor", "unlike"})
+  for (const char* key : {"different_pose_advantage", "elsewhere_advantage", "rejection_factor", "unlike", "uncross",
+                          "uncross_fingers", "uncross_allowance"})
     v.without_effect(key);
 }
 

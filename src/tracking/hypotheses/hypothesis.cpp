@@ -11,8 +11,6 @@ std::string_view to_string(Origin origin) {
       return "followed";
     case Origin::sampled:
       return "sampled";
-    case Origin::uncrossed:
-      return "uncrossed";
     case Origin::detected:
       return "detected";
     case Origin::searched:

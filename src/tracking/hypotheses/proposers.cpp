@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "stages/pose_prior/crossed_fingers.h"
 #include "stages/search/inverse_kinematics.h"
 #include "tracking/hypotheses/neutral_pose.h"
 #include "tracking/hypotheses/restart_consensus.h"
@@ -11,8 +10,7 @@
 namespace barehand {
 namespace {
 
-// Hypotheses that do not continue the track: from the detected joints, from searches of the observation, and from
-// uncrossing fingers.
+// Hypotheses that do not continue the track: from the detected joints, and from searches of the observation.
 
 constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the random seeds of two attempts in one frame
 
@@ -71,14 +69,10 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
   }
   if (!track.is_ambiguous(followed.score(), params.choice)) return std::nullopt;
 
-  // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that.
+  // The pose is ambiguous: fingers may be confused with their neighbours. The detected joints, if any, resolve that;
+  // without a detection, every n-th such frame is searched near the followed pose.
   const int frames = ++track.ambiguous_frames;
   if (observation.detected) return detected(observation, hand);
-
-  // Without a detection, try quick searches and searches near the followed pose in turn.
-  const int first = (params.ambiguous_search_every + 1) / 2;
-  if (frames % params.ambiguous_search_every == first % params.ambiguous_search_every)
-    return search_once(observation, hand, track, Effort::quick, 0, frame);
   if (frames % params.ambiguous_near_every == 0) return search_near(observation, hand, followed.refined.pose, frame);
   return std::nullopt;
 }
@@ -89,17 +83,6 @@ void Proposers::look_again(const HandObservation& observation, const HandModel& 
   if (!pose) return;
   auto best = best_of(Origin::detected, observation, hand, {{"detected", *pose}}, context_.params.near_iterations);
   if (choice_.replaces("second look", *best, followed, 0)) followed = std::move(*best);
-}
-
-void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
-  const TrackerParams& params = context_.params;
-  if (!params.refinement.enabled || !params.choice.uncross_fingers) return;
-  const auto apart = uncrossed(*hand.profile, followed.refined.pose, params.initialiser.widening);
-  if (!apart) return;
-
-  // Fingers side by side are more likely a priori, so this pose may explain the frame slightly worse.
-  auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.near_iterations);
-  if (choice_.replaces("uncross", *best, followed, -params.choice.uncross_allowance)) followed = std::move(*best);
 }
 
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
