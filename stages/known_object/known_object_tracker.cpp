@@ -151,9 +151,9 @@ bool KnownObjectTracker::follow(double dt, const ObservedDepth& view, const Hand
 /// whether the object was found.
 bool KnownObjectTracker::find(std::int64_t utime, double dt, const ObservedDepth& view, const HandEstimates& estimates,
                               std::span<const Vector3f> points) {
+  if (searches_ == 0) first_search_ = utime;
   if (!search_.under_way()) {
     if (points.empty()) return false;
-    if (searches_ == 0) first_search_ = utime;
 
     // Search in turn between the fingers of a hand, and at one of the given points, which are about evenly spread.
     Vector3f seed = points[(static_cast<std::size_t>(searches_) * 7919) % points.size()];

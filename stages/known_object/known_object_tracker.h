@@ -45,6 +45,8 @@ class KnownObjectTracker {
     SE3 T;
     double shift = 0, turn = 0;  // standard deviations [m], [rad]
   };
+  using Palms = std::map<std::int32_t, SE3>;  // T_camera_palm of every hand that is tracked
+  static Palms palms_of(const HandEstimates& estimates);
   void predict(const Hypothesis& hypothesis, double dt, const HandEstimates& estimates);
   bool follow(double dt, const ObservedDepth& view, const HandEstimates& estimates,
               std::span<const Eigen::Vector3f> points);
@@ -63,8 +65,6 @@ class KnownObjectTracker {
   Holding holding_;
   std::vector<Hypothesis> hypotheses_;  // the first one is stated; empty: it was not seen for long
   std::vector<Prediction> predictions_;
-  using Palms = std::map<std::int32_t, SE3>;  // T_camera_palm of every hand
-  static Palms palms_of(const HandEstimates& estimates);
   Palms palms_;                        // in the frame before
   std::int64_t utime_ = 0, seen_ = 0;  // of the frame before, and of the last one in which it was seen [us]
   int compared_ = 0;                   // frames in which the hypotheses were compared
