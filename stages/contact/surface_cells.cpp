@@ -14,7 +14,7 @@ constexpr float kStep = 0.008f;        // largest difference in depth of neighbo
 constexpr float kSurroundings = 0.2f;  // radius around the middle of the hand in which surfaces are observed [m]
 constexpr float kCrease = 0.35f;       // normals that converge by more than this from cell to cell show a crease
 constexpr int kWindow = 2;             // cells to each side that a surface is fitted to
-constexpr int kFewest = 6;             // cells that a surface needs
+constexpr float kFewest = 6;           // cells that a surface needs
 constexpr float kFlat = 0.005f, kStraight = 0.05f;  // weights of the priors of no slope and no curvature, for each cell
 constexpr std::int32_t kOther = -1, kSeed = -2;
 
@@ -43,7 +43,8 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
                            std::vector<bool>& open) {
   const auto first = static_cast<std::int32_t>(open.size());
   fill_cells(observations, *estimates[k], k, on_skin);
-  fit_surfaces();
+  fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
+  normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
   grow(open);
 
   // Add the cells of the new components to the points.
@@ -112,17 +113,15 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
     }
 }
 
-/// Fits the surface of every cell.
-void SurfaceCells::fit_surfaces() {
+/// Whether a cell has a surface. Fits it when it is asked for the first time: most cells are reached by no component.
+bool SurfaceCells::has_surface(std::int32_t i) {
+  if (place_[i].z() <= 0) return false;
+  if (fitted_[i].z() > 0) return !normal_[i].isZero();
   SurfacePoint point;
-  fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
-  normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
-  for (int r = 0; r < place_.height(); ++r)
-    for (int c = 0; c < place_.width(); ++c) {
-      if (place_.at(c, r).z() <= 0 || !fit(c, r, point)) continue;
-      fitted_.at(c, r) = point.p;
-      normal_.at(c, r) = point.n;
-    }
+  point.p = place_[i];
+  if (fit(i % place_.width(), i / place_.width(), point)) normal_[i] = point.n;
+  fitted_[i] = point.p;
+  return !normal_[i].isZero();
 }
 
 /// Fits z = a + b x + c y + d x^2 + e x y + f y^2 to the cells around a cell, those of other surfaces left out. A plane
@@ -131,26 +130,26 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
   // Add up the normal equations, in units of half the window's side from the centre.
   const Vector3f centre = place_.at(c, r);
   const float unit = kWindow * spacing_ * centre.z();
-  int count = 0;
-  Eigen::Matrix<float, 6, 6> A = Eigen::Matrix<float, 6, 6>::Zero();
-  Eigen::Matrix<float, 6, 1> g = Eigen::Matrix<float, 6, 1>::Zero(), row;
+  // Rows 0 to 5 become those of the matrix, row 6 the right-hand side; 8 rows are added fastest.
+  Eigen::Matrix<float, 8, 6> sums = Eigen::Matrix<float, 8, 6>::Zero();
+  Eigen::Matrix<float, 8, 1> row = Eigen::Matrix<float, 8, 1>::Zero();
   for (int y = std::max(0, r - kWindow); y <= std::min(place_.height() - 1, r + kWindow); ++y)
     for (int x = std::max(0, c - kWindow); x <= std::min(place_.width() - 1, c + kWindow); ++x) {
       const Vector3f& p = place_.at(x, y);
       if (p.z() <= 0 || std::abs(p.z() - centre.z()) > kStep * kWindow) continue;
       const Vector3f d = p - centre;
       const float u = d.x() / unit, v = d.y() / unit;
-      row << 1, u, v, u * u, u * v, v * v;
-      A += row * row.transpose();
-      g += d.z() * row;
-      ++count;
+      row << 1, u, v, u * u, u * v, v * v, d.z(), 0;
+      sums.noalias() += row * row.head<6>().transpose();
     }
+  const float count = sums(0, 0);
   if (count < kFewest) return false;
 
   // Solve, with weak priors: a narrow strip shows no slope across itself, and few cells show no curvature.
-  A.diagonal().segment<2>(1).array() += kFlat * static_cast<float>(count);
-  A.diagonal().tail<3>().array() += kStraight * static_cast<float>(count);
-  const Eigen::Matrix<float, 6, 1> surface = A.llt().solve(g);
+  Eigen::Matrix<float, 6, 6> A = sums.topRows<6>();
+  A.diagonal().segment<2>(1).array() += kFlat * count;
+  A.diagonal().tail<3>().array() += kStraight * count;
+  const Eigen::Matrix<float, 6, 1> surface = A.llt().solve(sums.row(6).transpose());
 
   // State the point on the surface and the normal that faces the camera.
   point.p = centre + Vector3f(0, 0, surface[0]);
@@ -166,14 +165,14 @@ void SurfaceCells::grow(std::vector<bool>& open) {
 
   // Two cells are joined unless there is a step or a concave crease between them.
   const auto joined = [&](std::int32_t i, std::int32_t j) {
-    if (normal_[j].isZero() || std::abs(place_[j].z() - place_[i].z()) > kStep) return false;
+    if (std::abs(place_[j].z() - place_[i].z()) > kStep || !has_surface(j)) return false;
     const Vector3f step = fitted_[j] - fitted_[i];
     return step.dot(normal_[i] - normal_[j]) < kCrease * step.norm();
   };
 
   // Begin a component at every seed that has none.
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(component_.size()); ++seed) {
-    if (component_[seed] != kSeed || normal_[seed].isZero()) continue;
+    if (component_[seed] != kSeed || !has_surface(seed)) continue;
     const auto number = static_cast<std::int32_t>(open.size());
     bool at_border = false;
     stack_.assign(1, seed);

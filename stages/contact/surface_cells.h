@@ -27,16 +27,17 @@ class SurfaceCells {
   void fill_cells(const HandObservations& observations, const HandEstimate& estimate, std::size_t k,
                   const std::function<bool(const Eigen::Vector3f&)>& on_skin);
   std::array<int, 2> pixel_of(const HandObservation& seen, int c, int r);
-  void fit_surfaces();
   void grow(std::vector<bool>& open);
+  bool has_surface(std::int32_t cell);
   bool fit(int c, int r, SurfacePoint& point) const;
 
   int step_ = 1;                  // pixels per cell
   float spacing_ = 0;             // of the cells at a depth of 1 m [m]
   Image<Eigen::Vector3f> place_;  // position of each cell that is not hand or arm, camera frame [m]; z = 0: none
-  Image<Eigen::Vector3f> fitted_, normal_;  // position and normal of each cell's surface; zero normal: none
-  Image<std::uint8_t> beyond_;              // 1: a surface that is too far from the hand to be observed
-  Image<std::int32_t> component_;           // component of each cell; kSeed: object, kOther: not reached yet
+  // Position and normal of each cell's surface. Zero normal: it has none; position with z = 0: not fitted yet.
+  Image<Eigen::Vector3f> fitted_, normal_;
+  Image<std::uint8_t> beyond_;     // 1: a surface that is too far from the hand to be observed
+  Image<std::int32_t> component_;  // component of each cell; kSeed: object, kOther: not reached yet
   std::vector<std::int32_t> stack_;
   std::vector<std::pair<float, std::array<int, 2>>> block_;  // depth and pixel of what a cell shows of an object
 };

@@ -11,19 +11,21 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kPoints = 2000;  // number of depth points on which a pose is refined
-constexpr std::size_t kFew = 200;      // number of depth points with which predictions are compared
+constexpr std::size_t kPoints = 800;  // number of depth points on which poses are refined; hypotheses share them
+constexpr std::size_t kComparedSamples = 400;  // number of samples of the surface with which hypotheses are compared
+constexpr std::size_t kFew = 200;              // number of depth points with which predictions are compared
 constexpr int kIterations = 15;
 constexpr double kReach = 0.02;       // distance from the prediction of points that may be the object's [m]
 constexpr double kModel = 0.001;      // deviation of the mesh from the object [m]
 constexpr double kCompared = 0.006;   // errors larger than this count as outliers in the comparison of predictions [m]
-constexpr double kOutlier = 4.0 / 6;  // of a point that a pose does not explain: negative logarithm of its likelihood
+constexpr double kOutlier = 4 / 2.4;  // of a point that a pose does not explain: negative logarithm of its likelihood
 constexpr int kTrial = 30;            // frames in which several hypotheses are compared
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
 constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was found to the next search [us]
-// Time over which the work of the longest search is spread, at first and once searches have been in vain for kVain [s].
-constexpr double kSearch = 0.1, kRareSearch = 0.2;
+// Time over which the work of the longest search is spread: at first, once searches have been in vain for kVain, and
+// while the object is followed [s].
+constexpr double kSearch = 0.1, kRareSearch = 0.2, kSecondSearch = 0.4;
 constexpr std::int64_t kVain = 2'000'000;  // [us]
 constexpr double kLongestStep = 0.2;       // frames farther apart than this have nothing to do with each other [s]
 // A pose is given up if less of the object shows, if more of what should be seen is seen through, or if more of the
@@ -85,7 +87,7 @@ void KnownObjectTracker::refine(Hypothesis& hypothesis, double dt, const Observe
 
   // Refine it.
   points_.clear();
-  view.points_near(*object_, best->T, kReach, kPoints, points_);
+  view.points_near(*object_, best->T, kReach, kPoints / hypotheses_.size(), points_);
   const PosePrior prior{best->T, (hypothesis.covariance + diagonal(best->shift, best->turn)).inverse()};
   const double sigma = std::hypot(view.noise(), kModel);
   const FittedPose fitted = fit_pose(*object_, points_, sigma, best->T, prior, kIterations, 1);
@@ -116,7 +118,7 @@ void KnownObjectTracker::compare(const ObservedDepth& view) {
   for (const Hypothesis& hypothesis : hypotheses_) view.points_near(*object_, hypothesis.T, kReach, kPoints, points_);
   const double scale = 2 * std::hypot(view.noise(), kModel), share = 1.0 / static_cast<double>(hypotheses_.size());
   for (Hypothesis& hypothesis : hypotheses_) {
-    const Visibility visibility = view.visibility(*object_, hypothesis.T, kPoints);
+    const Visibility visibility = view.visibility(*object_, hypothesis.T, kComparedSamples);
     hypothesis.misfit +=
         kOutlier * (share * misfit(*object_, hypothesis.T, points_, scale) + visibility.through + visibility.blocked);
   }
@@ -192,7 +194,7 @@ void KnownObjectTracker::look_again(std::int64_t utime, double dt, const Observe
 
   // What is found has moved since as what is followed has.
   const Hypothesis& first = hypotheses_.front();
-  if (search_.advance(dt / kSearch)) follow_also(first.T * first.T_then.inverse());
+  if (search_.advance(dt / kSecondSearch)) follow_also(first.T * first.T_then.inverse());
 }
 
 void KnownObjectTracker::begin_search(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,

@@ -115,11 +115,15 @@ void ObservedDepth::points_near(const KnownObject& object, const SE3& T_camera_o
     for (int v = v0; v <= v1; v += step)
       for (int u = u0; u <= u1 && points.size() < before + most; u += step) {
         const double raw = depth(u, v);
-        if (std::abs(raw - centre.z()) > object.radius + reach || of_hand(u, v)) continue;
+        if (std::abs(raw - centre.z()) > object.radius + reach) continue;
+        const Vector3d ray = camera.unproject(u, v, 1);
+        const auto distance = [&](double z) {
+          return object.grid.distance((T_object_camera * (z * ray)).cast<float>());
+        };
+        if (distance(raw) > reach + kAveraged * ray.norm() || of_hand(u, v)) continue;
         const double z = smoothed(u, v);
-        const Vector3d p = camera.unproject(u, v, z);
-        if (object.grid.distance((T_object_camera * p).cast<float>()) > reach || at_edge(u, v, z)) continue;
-        points.push_back(p.cast<float>());
+        if (distance(z) > reach || at_edge(u, v, z)) continue;
+        points.push_back((z * ray).cast<float>());
       }
   };
 
@@ -148,19 +152,22 @@ int Visibility::*ObservedDepth::shows(int u, int v, double z, double alike) cons
   return before ? &Visibility::blocked : &Visibility::through;
 }
 
-/// Calls `visit` with the place and the normal (camera frame) of each of the first samples that face the camera and
-/// are not hidden by the object itself.
-template <class Visit>
+/// Calls `visit` with the place and the normal (camera frame) of each of the first samples that face the camera, are
+/// not hidden by the object itself, and are `wanted` at their place in the image.
+template <class Wanted, class Visit>
 void ObservedDepth::visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples,
-                                  Visit visit) const {
+                                  Wanted wanted, Visit visit) const {
   const Eigen::Matrix3f R = T_camera_object.R.cast<float>();
   const Vector3f t = T_camera_object.t.cast<float>(), camera_in_object = -(R.transpose() * t);
   for (std::size_t i = 0; i < std::min(samples, object.samples.size()); ++i) {
     const SurfaceSample& sample = object.samples[i];
     const Vector3f to_camera = (camera_in_object - sample.p).normalized();
-    if (sample.n.dot(to_camera) < kSlant || hides_itself(object, sample.p, to_camera)) continue;
+    if (sample.n.dot(to_camera) < kSlant) continue;
     const Vector3d p = (R * sample.p + t).cast<double>();
-    if (p.z() > 0) visit(p, (R * sample.n).cast<double>().eval());
+    if (p.z() <= 0) continue;
+    const Eigen::Vector2d pixel = frame_->camera.project(p);
+    if (wanted(pixel) && !hides_itself(object, sample.p, to_camera))
+      visit(pixel, p, (R * sample.n).cast<double>().eval());
   }
 }
 
@@ -168,11 +175,12 @@ Visibility ObservedDepth::visibility(const KnownObject& object, const SE3& T_cam
   // Count the samples by what lies in front of them or behind them.
   Visibility visibility;
   const double alike = kAlike + 2 * noise_;
-  visit_visible(object, T_camera_object, samples, [&](const Vector3d& p, const Vector3d&) {
-    const Eigen::Vector2d pixel = frame_->camera.project(p);
-    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-    ++(visibility.*shows(u, v, p.z(), alike));
-  });
+  const auto all = [](const Eigen::Vector2d&) { return true; };
+  visit_visible(object, T_camera_object, samples, all,
+                [&](const Eigen::Vector2d& pixel, const Vector3d& p, const Vector3d&) {
+                  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+                  ++(visibility.*shows(u, v, p.z(), alike));
+                });
   return visibility;
 }
 
@@ -184,11 +192,17 @@ double ObservedDepth::continued(const KnownObject& object, const SE3& T_camera_o
   };
   std::array<Last, kDirections> last;
   static const std::array<Eigen::Vector2d, kDirections> directions = directions_around();
-  visit_visible(object, T_camera_object, object.samples.size(), [&](const Vector3d& p, const Vector3d& normal) {
-    const Eigen::Vector2d pixel = frame_->camera.project(p);
+  const auto farther = [&](const Eigen::Vector2d& pixel) {
     for (std::size_t k = 0; k < kDirections; ++k)
-      if (const double along = directions[k].dot(pixel); along > last[k].along) last[k] = {along, p, normal};
-  });
+      if (directions[k].dot(pixel) > last[k].along) return true;
+    return false;
+  };
+  visit_visible(object, T_camera_object, object.samples.size(), farther,
+                [&](const Eigen::Vector2d& pixel, const Vector3d& p, const Vector3d& normal) {
+                  for (std::size_t k = 0; k < kDirections; ++k)
+                    if (const double along = directions[k].dot(pixel); along > last[k].along)
+                      last[k] = {along, p, normal};
+                });
 
   // What a pixel shows of the plane through a place: -1 nothing is known, 0 another surface, 1 the plane.
   const auto shows_plane = [&](const Last& place, double beyond, std::size_t k) {

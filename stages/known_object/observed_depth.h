@@ -42,8 +42,9 @@ class ObservedDepth {
   double noise() const { return noise_; }
 
  private:
-  template <class Visit>
-  void visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples, Visit visit) const;
+  template <class Wanted, class Visit>
+  void visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples, Wanted wanted,
+                     Visit visit) const;
   bool of_hand(int u, int v) const;
   double depth(int u, int v) const;  // [m]; 0: no measurement
   double smoothed(int u, int v) const;
