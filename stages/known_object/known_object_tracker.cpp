@@ -19,6 +19,7 @@ constexpr double kReach = 0.02;       // distance from the prediction of points 
 constexpr double kModel = 0.001;      // deviation of the mesh from the object [m]
 constexpr double kCompared = 0.006;   // errors larger than this count as outliers in the comparison of predictions [m]
 constexpr double kOutlier = 4 / 2.4;  // of a point that a pose does not explain: negative logarithm of its likelihood
+constexpr double kAtEdges = 0.03;     // fraction of the samples that contradict any pose, for edges are measured badly
 constexpr int kTrial = 30;            // frames in which several hypotheses are compared
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
@@ -119,8 +120,9 @@ void KnownObjectTracker::compare(const ObservedDepth& view) {
   const double scale = 2 * std::hypot(view.noise(), kModel), share = 1.0 / static_cast<double>(hypotheses_.size());
   for (Hypothesis& hypothesis : hypotheses_) {
     const Visibility visibility = view.visibility(*object_, hypothesis.T, kComparedSamples);
-    hypothesis.misfit +=
-        kOutlier * (share * misfit(*object_, hypothesis.T, points_, scale) + visibility.through + visibility.blocked);
+    const int against = visibility.through + visibility.blocked;
+    const double clearly = std::max(0.0, against - kAtEdges * (against + visibility.seen));
+    hypothesis.misfit += kOutlier * (share * misfit(*object_, hypothesis.T, points_, scale) + clearly);
   }
 
   // A better one takes the lead if it is clearly better, so that a symmetric object does not jump.

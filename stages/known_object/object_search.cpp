@@ -49,7 +49,7 @@ std::vector<Eigen::Matrix3d> spiral(int count) {
 
 /// A weak prior. It keeps a pose from drifting in directions that the points do not constrain.
 PosePrior anywhere_near(const SE3& T) {
-  constexpr double kShift = 0.05, kTurn = 1;
+  constexpr double kShift = 0.03, kTurn = 0.6;
   PosePrior prior{T};
   prior.information.diagonal() << Vector3d::Constant(1 / (kShift * kShift)), Vector3d::Constant(1 / (kTurn * kTurn));
   return prior;
