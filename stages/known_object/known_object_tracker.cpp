@@ -24,9 +24,9 @@ constexpr int kTrial = 30;            // frames in which several hypotheses are 
 constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
 constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was found to the next search [us]
-// Time over which the work of the longest search is spread: at first, once searches have been in vain for kVain, and
-// while the object is followed [s].
-constexpr double kSearch = 0.1, kRareSearch = 0.2, kSecondSearch = 0.4;
+// Time over which the work of the longest search is spread: at first, and once searches have been in vain for kVain or
+// the object is followed [s].
+constexpr double kSearch = 0.1, kRareSearch = 0.4;
 constexpr std::int64_t kVain = 2'000'000;  // [us]
 constexpr double kLongestStep = 0.2;       // frames farther apart than this have nothing to do with each other [s]
 // A pose is given up if less of the object shows, if more of what should be seen is seen through, or if more of the
@@ -196,7 +196,7 @@ void KnownObjectTracker::look_again(std::int64_t utime, double dt, const Observe
 
   // What is found has moved since as what is followed has.
   const Hypothesis& first = hypotheses_.front();
-  if (search_.advance(dt / kSecondSearch)) follow_also(first.T * first.T_then.inverse());
+  if (search_.advance(dt / kRareSearch)) follow_also(first.T * first.T_then.inverse());
 }
 
 void KnownObjectTracker::begin_search(std::int64_t utime, const ObservedDepth& view, const HandEstimates& estimates,
