@@ -152,8 +152,8 @@ int Visibility::*ObservedDepth::shows(int u, int v, double z, double alike) cons
   return before ? &Visibility::blocked : &Visibility::through;
 }
 
-/// Calls `visit` with the place and the normal (camera frame) of each of the first samples that face the camera, are
-/// not hidden by the object itself, and are `wanted` at their place in the image.
+/// Calls `visit` with the pixel, the place and the normal (camera frame) of each of the first samples that face the
+/// camera, are not hidden by the object itself, and whose pixel is `wanted`.
 template <class Wanted, class Visit>
 void ObservedDepth::visit_visible(const KnownObject& object, const SE3& T_camera_object, std::size_t samples,
                                   Wanted wanted, Visit visit) const {
