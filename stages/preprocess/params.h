@@ -13,7 +13,7 @@ struct PreprocessParams {
   double hand_reach = 0.08;
   double wrist_margin = 0.015;
   double object_reach = 0.05;
-  double margin = 0.03;
+  double margin = 0.05;
   int skew_px = 2;
   double skin_odds = 0.4;
   double other_odds = 1.4;

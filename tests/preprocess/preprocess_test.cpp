@@ -64,12 +64,12 @@ TEST(Preprocess, AFingertipThatShowsBehindAnObjectIsHand) {
   }
 }
 
-TEST(Preprocess, TheRegionReachesThreeCentimetresBeyondTheHandAndAtLeast48Pixels) {
+TEST(Preprocess, TheRegionReachesFiveCentimetresBeyondTheHandAndAtLeast48Pixels) {
   constexpr double kPalmEdge = -0.04, kFocal = 240, kCentre = 159.5, kCell = 4;
-  constexpr double kNear = 0.13, kFar = 0.8;
+  constexpr double kNear = 0.2, kFar = 0.8;
   const auto near = observe(PaintedScene().hand(kX, kY, kNear)), far = observe(PaintedScene().hand(kX, kY, kFar));
   ASSERT_TRUE(near->hand_present && far->hand_present);
-  EXPECT_NEAR(near->u0, kCentre + kFocal * (kPalmEdge - 0.03) / kNear, kCell);
+  EXPECT_NEAR(near->u0, kCentre + kFocal * (kPalmEdge - 0.05) / kNear, kCell);
   EXPECT_NEAR(far->u0, kCentre + kFocal * kPalmEdge / kFar - 48, kCell);
 }
 
