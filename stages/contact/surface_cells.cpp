@@ -43,8 +43,6 @@ void SurfaceCells::collect(const HandObservations& observations, const HandEstim
                            std::vector<bool>& open) {
   const auto first = static_cast<std::int32_t>(open.size());
   fill_cells(observations, *estimates[k], k, on_skin);
-  fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
-  normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
   grow(open);
 
   // Add the cells of the new components to the points.
@@ -84,6 +82,8 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
   step_ = std::max(1, static_cast<int>(std::lround(kSpacing * seen.frame->camera.fx / z_palm)));
   spacing_ = static_cast<float>(step_ / seen.frame->camera.fx);
   place_.reset(seen.depth.width() / step_, seen.depth.height() / step_, Vector3f::Zero());
+  fitted_.reset(place_.width(), place_.height(), Vector3f::Zero());
+  normal_.reset(place_.width(), place_.height(), Vector3f::Zero());
   component_.reset(place_.width(), place_.height(), kOther);
   beyond_.reset(place_.width(), place_.height(), 0);
 
@@ -114,21 +114,19 @@ void SurfaceCells::fill_cells(const HandObservations& observations, const HandEs
 }
 
 /// Whether a cell has a surface. Fits it when it is asked for the first time: most cells are reached by no component.
-bool SurfaceCells::has_surface(std::int32_t i) {
-  if (place_[i].z() <= 0) return false;
-  if (fitted_[i].z() > 0) return !normal_[i].isZero();
-  SurfacePoint point;
-  point.p = place_[i];
-  if (fit(i % place_.width(), i / place_.width(), point)) normal_[i] = point.n;
-  fitted_[i] = point.p;
-  return !normal_[i].isZero();
+bool SurfaceCells::has_surface(std::int32_t cell) {
+  if (place_[cell].z() > 0 && fitted_[cell].z() == 0) fit(cell);
+  return !normal_[cell].isZero();
 }
 
 /// Fits z = a + b x + c y + d x^2 + e x y + f y^2 to the cells around a cell, those of other surfaces left out. A plane
 /// would lie within a ball in its middle and outside of it at its rim, where the window sees one side only.
-bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
+void SurfaceCells::fit(std::int32_t cell) {
+  const int c = cell % place_.width(), r = cell / place_.width();
+  fitted_[cell] = place_[cell];
+
   // Add up the normal equations, in units of half the window's side from the centre.
-  const Vector3f centre = place_.at(c, r);
+  const Vector3f centre = place_[cell];
   const float unit = kWindow * spacing_ * centre.z();
   // Rows 0 to 5 become those of the matrix, row 6 the right-hand side; 8 rows are added fastest.
   Eigen::Matrix<float, 8, 6> sums = Eigen::Matrix<float, 8, 6>::Zero();
@@ -143,7 +141,7 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
       sums.noalias() += row * row.head<6>().transpose();
     }
   const float count = sums(0, 0);
-  if (count < kFewest) return false;
+  if (count < kFewest) return;
 
   // Solve, with weak priors: a narrow strip shows no slope across itself, and few cells show no curvature.
   Eigen::Matrix<float, 6, 6> A = sums.topRows<6>();
@@ -152,10 +150,9 @@ bool SurfaceCells::fit(int c, int r, SurfacePoint& point) const {
   const Eigen::Matrix<float, 6, 1> surface = A.llt().solve(sums.row(6).transpose());
 
   // State the point on the surface and the normal that faces the camera.
-  point.p = centre + Vector3f(0, 0, surface[0]);
-  point.n = Vector3f(surface[1] / unit, surface[2] / unit, -1).normalized();
-  if (point.n.dot(point.p) > 0) point.n = -point.n;
-  return true;
+  fitted_[cell].z() += surface[0];
+  normal_[cell] = Vector3f(surface[1] / unit, surface[2] / unit, -1).normalized();
+  if (normal_[cell].dot(fitted_[cell]) > 0) normal_[cell] = -normal_[cell];
 }
 
 /// Numbers the connected surfaces that contain an object's cell. Surfaces end at steps in depth and at creases, where

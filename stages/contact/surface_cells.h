@@ -29,7 +29,7 @@ class SurfaceCells {
   std::array<int, 2> pixel_of(const HandObservation& seen, int c, int r);
   void grow(std::vector<bool>& open);
   bool has_surface(std::int32_t cell);
-  bool fit(int c, int r, SurfacePoint& point) const;
+  void fit(std::int32_t cell);
 
   int step_ = 1;                  // pixels per cell
   float spacing_ = 0;             // of the cells at a depth of 1 m [m]

@@ -15,13 +15,14 @@ constexpr std::size_t kPoints = 800;  // number of depth points on which poses a
 constexpr std::size_t kComparedSamples = 400;  // number of samples of the surface with which hypotheses are compared
 constexpr std::size_t kFew = 200;              // number of depth points with which predictions are compared
 constexpr int kIterations = 15;
-constexpr double kReach = 0.02;       // distance from the prediction of points that may be the object's [m]
-constexpr double kModel = 0.001;      // deviation of the mesh from the object [m]
-constexpr double kCompared = 0.006;   // errors larger than this count as outliers in the comparison of predictions [m]
-constexpr double kOutlier = 4 / 2.4;  // of a point that a pose does not explain: negative logarithm of its likelihood
-constexpr double kAtEdges = 0.03;     // fraction of the samples that contradict any pose, for edges are measured badly
-constexpr int kTrial = 30;            // frames in which several hypotheses are compared
-constexpr double kClear = 10;         // difference of logarithms of likelihoods that decides between hypotheses
+constexpr double kReach = 0.02;      // distance from the prediction of points that may be the object's [m]
+constexpr double kModel = 0.001;     // deviation of the mesh from the object [m]
+constexpr double kCompared = 0.006;  // errors larger than this count as outliers in the comparison of predictions [m]
+// Negative logarithm of the likelihood of a point that a pose does not explain.
+constexpr double kOutlier = 4 / kTogether;
+constexpr double kAtEdges = 0.03;  // fraction of the samples that contradict any pose, for edges are measured badly
+constexpr int kTrial = 30;         // frames in which several hypotheses are compared
+constexpr double kClear = 10;      // difference of logarithms of likelihoods that decides between hypotheses
 constexpr std::int64_t kForgotten = 500'000;  // time after which an object that is not seen is searched anywhere [us]
 constexpr std::int64_t kFirstLook = 500'000;  // time from when an object was found to the next search [us]
 // Time over which the work of the longest search is spread: at first, and once searches have been in vain for kVain or

@@ -11,8 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTogether = 2.4;  // k: neighbouring points that count as one
-constexpr double kAway = 0.1;      // least cosine between the line of sight and the normal of a visible surface
+constexpr double kAway = 0.1;  // least cosine between the line of sight and the normal of a visible surface
 // Steps towards the camera [m], and their number, in which the side of a thin wall that faces the camera is looked for.
 // A search, which starts far off, does without.
 constexpr double kThrough = 0.002;

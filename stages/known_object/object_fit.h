@@ -21,6 +21,9 @@ struct PosePrior {
   Matrix6d information = Matrix6d::Zero();
 };
 
+/// Neighbouring points err together, so that this many of those on which a pose is refined count as one: k below.
+constexpr double kTogether = 2.4;
+
 /// A pose that fits points.
 struct FittedPose {
   SE3 T_camera_object;
@@ -31,7 +34,7 @@ struct FittedPose {
 ///
 ///     E(T) = sum rho(d(T^-1 p_i)) / (k sigma^2) + prior,  rho(r) = r^2 s^2 / (s^2 + r^2)  (Geman and McClure)
 ///
-/// d is the signed distance, and s = 2 sigma. Neighbouring points err together, so that k of them count as one.
+/// d is the signed distance, and s = 2 sigma.
 /// Points whose nearest surface faces away from the camera count nothing, unless `coarse` is 1 and they are in or
 /// behind a thin wall: d is then the distance from the side that the camera sees. In the first half of the iterations s
 /// is up to `coarse` times as large: with 6, start from a pose that is off by no more than about 20 degrees and 20 mm;
