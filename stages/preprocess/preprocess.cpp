@@ -15,6 +15,9 @@ constexpr float kSurelyOther = 0.045f;
 // Cells of the coarse depth grid farther than this from a hand's centre cannot show that hand [m].
 constexpr float kSurroundings = 0.22f;
 constexpr int kLeastMargin = 48;  // around a hand that is far away [px]
+// A region begins at a multiple of this many pixels, since the tracker looks at every second or fourth pixel from
+// there on: at the same ones, whatever the margin.
+constexpr int kAligned = 8;
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
@@ -170,11 +173,14 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
           nearest = std::min(nearest, p.z());
         }
 
-  // Add the margin, and stay inside the image.
+  // Add the margin, align the beginning, and stay inside the image.
   const int margin = std::max(kLeastMargin, static_cast<int>(params_.margin * camera.fx / nearest));
   Region region;
-  region.u0 = std::max(0, static_cast<int>(u0) - margin);
-  region.v0 = std::max(0, static_cast<int>(v0) - margin);
+  const auto begin = [&](double lowest) {
+    return std::max(0, static_cast<int>(lowest) - margin) / kAligned * kAligned;
+  };
+  region.u0 = begin(u0);
+  region.v0 = begin(v0);
   region.width = std::min(camera.width, static_cast<int>(u1) + margin) - region.u0;
   region.height = std::min(camera.height, static_cast<int>(v1) + margin) - region.v0;
   return region;

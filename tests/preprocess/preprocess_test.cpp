@@ -65,12 +65,22 @@ TEST(Preprocess, AFingertipThatShowsBehindAnObjectIsHand) {
 }
 
 TEST(Preprocess, TheRegionReachesFiveCentimetresBeyondTheHandAndAtLeast48Pixels) {
-  constexpr double kPalmEdge = -0.04, kFocal = 240, kCentre = 159.5, kCell = 4;
+  constexpr double kPalmEdge = -0.04, kFocal = 240, kCentre = 159.5, kCell = 4, kAligned = 8;
   constexpr double kNear = 0.2, kFar = 0.8;
   const auto near = observe(PaintedScene().hand(kX, kY, kNear)), far = observe(PaintedScene().hand(kX, kY, kFar));
   ASSERT_TRUE(near->hand_present && far->hand_present);
-  EXPECT_NEAR(near->u0, kCentre + kFocal * (kPalmEdge - 0.05) / kNear, kCell);
-  EXPECT_NEAR(far->u0, kCentre + kFocal * kPalmEdge / kFar - 48, kCell);
+  EXPECT_NEAR(near->u0 + kAligned / 2, kCentre + kFocal * (kPalmEdge - 0.05) / kNear, kCell + kAligned / 2);
+  EXPECT_NEAR(far->u0 + kAligned / 2, kCentre + kFocal * kPalmEdge / kFar - 48, kCell + kAligned / 2);
+}
+
+TEST(Preprocess, TheTrackerLooksAtTheSamePixelsWhateverTheMargin) {
+  PreprocessParams params;
+  for (params.margin = 0.05; params.margin < 0.07; params.margin += 0.003) {
+    Preprocessor preprocessor{params};
+    const auto o = process(preprocessor, PaintedScene().hand(kX, kY, 0.3).share());
+    EXPECT_EQ(o->u0 % 8, 0) << params.margin;
+    EXPECT_EQ(o->v0 % 8, 0) << params.margin;
+  }
 }
 
 TEST(Preprocess, MissingDepthStaysUnknown) {
