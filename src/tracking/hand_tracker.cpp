@@ -37,6 +37,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
   if (score < track_.state.bad_threshold(evidence)) {
     track_.search_frames = 0;
     proposers_.look_again(observation, person_.hand(), *followed, frame_);
+    proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
     other = proposers_.propose_alternative(observation, person_.hand(), track_, *followed, frame_);
   } else {

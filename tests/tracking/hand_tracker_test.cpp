@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hand/articulated_pose.h"
 #include "hand/skin.h"
 #include "math/angles.h"
 #include "support/painted_hand.h"
@@ -81,6 +82,31 @@ TEST_F(UpsideDown, IsNotTurnedByJointsThatNoHandHas) {
     torn.joints[landmark_of(finger, 3)].position.x() += finger % 2 == 0 ? 0.08 : -0.08;
   tracker_.apply(StartAt{upright_});
   EXPECT_GT(error_after(torn), 0.05);
+}
+
+TEST(HandTracker, PutsCrossedFingersSideBySide) {
+  const std::shared_ptr<const HandProfile> profile = test::adult_hand();
+  const HandPose pose = test::facing_pose(*profile, 0.5);
+  const HandObservationPtr hand = test::observe_skin(make_blended_skin(*profile, 0.004), pose);
+  const int middle = segment_of(2, 0), ring = segment_of(3, 0);
+  const auto tip_of_ring = [&](const HandPose& p) { return distal_end(*profile, p, segment_of(3, 2)); };
+
+  // Start with the middle and the ring finger in each other's place.
+  ArticulatedPose crossed = articulated_from(*profile, pose, widened_limits(*profile, 0.3));
+  crossed.angles[middle].abduction -= side_sign(profile->handedness) * 20 * kDegree;
+  crossed.angles[ring].abduction += side_sign(profile->handedness) * 20 * kDegree;
+  const auto error_after_two_frames = [&](bool uncross) {
+    TrackerParams params = stubborn_tracker();
+    params.choice.uncross_fingers = uncross;
+    Workers workers(1);
+    HandTracker tracker(params, profile, 1, workers);
+    tracker.apply(StartAt{posed(*profile, crossed)});
+    tracker.process(*test::stamped(*hand, 33'000));
+    const HandEstimatePtr estimate = tracker.process(*test::stamped(*hand, 66'000));
+    return (tip_of_ring(pose_of(estimate->segments)) - tip_of_ring(pose)).norm();
+  };
+  EXPECT_LT(error_after_two_frames(true), 0.003);
+  EXPECT_GT(error_after_two_frames(false), 0.01);
 }
 
 TEST(HandTracker, IsNotConfidentInABadFrame) {

@@ -74,6 +74,7 @@ std::vector<ExperimentVariant> ablations(const Config& complete) {
   // Variants that each lack one of the rules for starting a track, choosing between poses and finding a lost hand.
   variant("no_detection").detection.enabled = false;
   without("no_ambiguous_search", [](TrackerParams& p) { p.choice.ambiguity_margin = 1000; });
+  without("no_uncrossing", [](TrackerParams& p) { p.choice.uncross_fingers = false; });
   without("no_neutral_pose", [](TrackerParams& p) { p.neutral_joints = false; });
   without("one_search", [](TrackerParams& p) { p.search_attempts = 1; });
   without("no_confirmation", [](TrackerParams& p) { p.choice.confirmation_factor = 0; });

@@ -14,6 +14,7 @@ namespace barehand {
 struct ChoiceParams {
   // Advantages that other poses of a frame need over the followed one.
   double sampling_advantage = 0.02;
+  bool uncross_fingers = true;
   double search_advantage = 0.1;
 
   // Absolute global scores [m].
@@ -32,9 +33,11 @@ struct ChoiceParams {
 
 template <class V>
 void visit(V& v, ChoiceParams& p) {
-  // This compares sampled poses with the followed one.
+  // These compare sampled and uncrossed poses with the followed one.
   v("sampling_advantage", p.sampling_advantage, 0.0, 1.0,
     "a sampled pose replaces the predicted one only if its global score is lower by this fraction");
+  v.formerly("uncross");
+  v("uncross_fingers", p.uncross_fingers, "also test the followed pose with crossing fingers put side by side");
 
   // These compare the poses that a search found with the followed one.
   v("search_advantage", p.search_advantage, 0.0, 1.0,
@@ -66,14 +69,18 @@ void visit(V& v, ChoiceParams& p) {
     "factor on the score of a pose that a detection confirms; 1: no effect");
 
   // These were rules of which the ablation showed no effect.
-  for (const char* key : {"different_pose_advantage", "elsewhere_advantage", "rejection_factor", "unlike", "uncross",
-                          "uncross_fingers", "uncross_allowance"})
+  for (const char* key :
+       {"different_pose_advantage", "elsewhere_advantage", "rejection_factor", "unlike", "uncross_allowance"})
     v.without_effect(key);
 }
 
 // A pose from detected joints replaces the followed one if their cost (joint_cost()) is below the first for it, so that
 // the networks are about as wrong as usual, and lower by the second than for the followed pose.
 inline constexpr double kTrustedJointCost = 1.2, kJointCostAdvantage = 0.05;
+
+/// The pose with uncrossed fingers may have a score that is higher by up to this fraction: fingers side by side are
+/// more likely a priori.
+inline constexpr double kUncrossAllowance = 0.05;
 
 // Advantages that one hypothesis about the hand (left or right, its size, its profile) needs over another one.
 inline constexpr double kHandAdvantage = 0.1;  ///< advantage needed if a single frame is compared

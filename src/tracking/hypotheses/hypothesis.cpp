@@ -11,6 +11,8 @@ std::string_view to_string(Origin origin) {
       return "followed";
     case Origin::sampled:
       return "sampled";
+    case Origin::uncrossed:
+      return "uncrossed";
     case Origin::detected:
       return "detected";
     case Origin::searched:

@@ -13,11 +13,12 @@ namespace barehand {
 
 /// How a hypothesis was found.
 enum class Origin {
-  followed,  ///< by refining the prediction
-  sampled,   ///< by the paper's local trackers and belief propagation
-  detected,  ///< by inverse kinematics of the detected joints
-  searched,  ///< by a search of the whole observation
-  near,      ///< by a search of finger poses near the followed pose
+  followed,   ///< by refining the prediction
+  sampled,    ///< by the paper's local trackers and belief propagation
+  uncrossed,  ///< by putting crossed fingers of the followed pose side by side
+  detected,   ///< by inverse kinematics of the detected joints
+  searched,   ///< by a search of the whole observation
+  near,       ///< by a search of finger poses near the followed pose
 };
 std::string_view to_string(Origin origin);
 

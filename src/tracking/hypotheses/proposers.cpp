@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "stages/pose_prior/crossed_fingers.h"
 #include "stages/search/inverse_kinematics.h"
 #include "tracking/hypotheses/neutral_pose.h"
 #include "tracking/hypotheses/restart_consensus.h"
@@ -10,7 +11,8 @@
 namespace barehand {
 namespace {
 
-// Hypotheses that do not continue the track: from the detected joints, and from searches of the observation.
+// Hypotheses that do not continue the track: from the detected joints, from searches of the observation, and from
+// uncrossing fingers.
 
 constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the random seeds of two attempts in one frame
 
@@ -83,6 +85,15 @@ void Proposers::look_again(const HandObservation& observation, const HandModel& 
   if (!pose) return;
   auto best = best_of(Origin::detected, observation, hand, {{"detected", *pose}}, context_.params.near_iterations);
   if (choice_.replaces("second look", *best, followed, 0)) followed = std::move(*best);
+}
+
+void Proposers::uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const {
+  const TrackerParams& params = context_.params;
+  if (!params.refinement.enabled || !params.choice.uncross_fingers) return;
+  const auto apart = uncrossed(*hand.profile, followed.refined.pose, params.initialiser.widening);
+  if (!apart) return;
+  auto best = best_of(Origin::uncrossed, observation, hand, {{"uncrossed", *apart}}, params.near_iterations);
+  if (choice_.replaces("uncross", *best, followed, -kUncrossAllowance)) followed = std::move(*best);
 }
 
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.

@@ -38,6 +38,9 @@ class Proposers {
   /// way.
   void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed, std::uint32_t frame);
 
+  /// Puts crossed fingers of the followed pose side by side if that explains the frame about as well.
+  void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
+
  private:
   std::optional<Hypothesis> detected(const HandObservation& observation, const HandModel& hand) const;
   // One search of the whole observation. `attempt`: number of the search in this frame, from 0.
