@@ -59,11 +59,10 @@ struct DetectedHand {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the palm, between wrist and middle knuckle
   /// Probability of a palm from the whole frame's heat map; 1 if the hand was found where tracking predicted it.
   double palm = 0;
-  double right_log_odds = 0;  ///< log odds of a right hand against a left one
+  double right_log_odds = 0;            ///< log odds of a right hand against a left one
+  Handedness side = Handedness::right;  ///< the joints are those of a hand of this side
   std::array<DetectedJoint, kLandmarkCount> joints;
   LabelMap labels;  ///< labels of a window of about 0.34 m around the hand
-
-  Handedness side() const { return right_log_odds >= 0 ? Handedness::right : Handedness::left; }
 };
 
 /// Result of the detection networks for one frame. Immutable once shared.

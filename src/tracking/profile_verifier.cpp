@@ -162,7 +162,7 @@ std::optional<double> ProfileVerifier::other_size_in_view(const HandObservation&
   if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_checks_ >= kSizeChecks)
     return std::nullopt;
   ++size_checks_;
-  const bool own_side = observation.detected->side() == profile_.handedness;
+  const bool own_side = observation.detected->side == profile_.handedness;
   const auto seen =
       fit_size_to_joints(own_side ? profile_ : mirrored(profile_), observation.detected->joints, kAnySize);
   if (!seen || std::abs(std::log(seen->scale)) < kOtherSize) return std::nullopt;

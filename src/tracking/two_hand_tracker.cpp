@@ -154,7 +154,7 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
   if (score > params_.loss.lost_score) {
     if (found && !other_size && params_.size_check) check.nothing_found(observation, score);
   } else if (params_.side_check) {
-    const bool own_side_seen = other_size && observation.detected->side() == before.profile->handedness;
+    const bool own_side_seen = other_size && observation.detected->side == before.profile->handedness;
     if (!own_side_seen && check.is_other_side(observation, before.effort, attempts, score)) found.reset();
   }
   return hand.process(observation, std::move(found));

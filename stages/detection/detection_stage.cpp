@@ -58,7 +58,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   if (!look)
     detection = tl::unexpected(look.error());
   else if (whole)
-    detection = detector_->detect(frame, workers_, places_);
+    detection = detector_->detect(frame, workers_, places_, wanted(feedback));
   else if (windows)
     detection = detector_->detect_at(frame, places_, workers_);
 

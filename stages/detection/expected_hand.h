@@ -10,8 +10,9 @@ namespace barehand {
 
 /// A place where a hand is expected.
 struct ExpectedHand {
-  Eigen::Vector3d centre;          ///< centre of the palm, camera frame [m]
-  std::optional<Handedness> side;  ///< none: the hand may be of either side
+  Eigen::Vector3d centre;                 ///< centre of the palm, camera frame [m]
+  std::optional<Handedness> side;         ///< none: the hand may be of either side
+  std::optional<Handedness> wanted = {};  ///< where either may be: the one that is looked for
 };
 
 /// Where a hand is in a frame, predicted from an earlier estimate by the palm's constant velocity. None: it is not

@@ -113,8 +113,8 @@ void HandDetector::choose_palms(const Detection& out) {
   }
 }
 
-Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
-                                       std::span<const ExpectedHand> tracked) {
+Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked,
+                                       std::optional<Handedness> wanted) {
   Detection out;
   out.whole_frame = true;
   if (const auto found = find_palms(frame, workers, out); !found) return tl::unexpected(found.error());
@@ -130,7 +130,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
     // Examine the next palms in one batch.
     choose_palms(out);
     places_.clear();
-    for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}});
+    for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}, wanted});
     if (const auto done = examine(frame, places_, workers); !done) return tl::unexpected(done.error());
 
     // Add the hands that were found.

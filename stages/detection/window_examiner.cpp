@@ -1,12 +1,15 @@
 // Runs the second network on a window around a palm, and reads the detected hand from its output.
 #include "stages/detection/window_examiner.h"
 
+#include <cmath>
+
 #include "stages/detection/networks.h"
 
 namespace barehand {
 namespace {
 
-constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
+constexpr double kRecentre = 0.03;  // if the palm is off the window's centre by more, the window is moved [m]
+constexpr double kSureSide = 3;     // log odds of the side from which on it is sure: of most hands they are 4 to 20
 constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
 
 /// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
@@ -21,6 +24,13 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
         area += z * z / (camera.fx * camera.fy) * view.step_u * view.step_v;
     }
   return area;
+}
+
+/// The side as which the joints of a hand are read: that of the log odds or, where they are not sure, the one that is
+/// looked for.
+Handedness side_to_read(double right_log_odds, std::optional<Handedness> wanted) {
+  if (wanted && std::abs(right_log_odds) < kSureSide) return *wanted;
+  return right_log_odds < 0 ? Handedness::left : Handedness::right;
 }
 
 }  // namespace
@@ -43,6 +53,7 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
     hand.joints[k] = read_joint(*output, k, view, centre.z(), mirrored, frame.camera);
   hand.centre = 0.5 * (hand.joints[kWristLandmark].position + hand.joints[kMiddleKnuckleLandmark].position);
   hand.right_log_odds = mirrored ? -output->side : output->side;
+  hand.side = mirrored ? Handedness::left : Handedness::right;
   read_labels(*output, view, mirrored, hand.labels);
   window.hand_area = hand_area(hand.labels, view, depth_, frame.camera);
   return window;
@@ -52,12 +63,14 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
 /// the window was mirrored for.
 Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place,
                                                             Workers& workers) {
-  bool mirrored = place.side == Handedness::left;
+  bool mirrored = (place.side ? place.side : place.wanted) == Handedness::left;
   auto window = run_network(frame, place.centre, mirrored, workers);
   if (!window) return tl::unexpected(window.error());
 
   // Examine a second window if the hand is off the centre, or if it is of the other side.
-  const auto other_side = [&] { return !place.side && (window->hand.side() == Handedness::left) != mirrored; };
+  const auto other_side = [&] {
+    return !place.side && side_to_read(window->hand.right_log_odds, place.wanted) != window->hand.side;
+  };
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || other_side()) {
     if (window->hand.centre.z() <= 0) return std::nullopt;
@@ -72,7 +85,7 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
     auto other = run_network(frame, window->hand.centre, !mirrored, workers);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
-    if ((right < 0) != mirrored) *window = std::move(*other);
+    if (side_to_read(right, place.wanted) != window->hand.side) *window = std::move(*other);
     window->hand.right_log_odds = right;
   }
   if (window->hand_area < kSmallestHand) return std::nullopt;

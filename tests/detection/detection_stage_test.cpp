@@ -90,9 +90,9 @@ std::vector<DetectedHand> right_and_left() {
 TEST(SortByProbability, TheWantedSideComesFirstThenTheOtherOne) {
   std::vector<DetectedHand> hands = right_and_left();
   sort_by_probability(hands, Handedness::left);
-  EXPECT_EQ(hands[0].side(), Handedness::left);
+  EXPECT_LT(hands[0].right_log_odds, 0);
   sort_by_probability(hands, Handedness::right);
-  EXPECT_EQ(hands[0].side(), Handedness::right);
+  EXPECT_GT(hands[0].right_log_odds, 0);
 }
 
 TEST(SortByProbability, WithBothHandsWantedTheSurerOneComesFirst) {

@@ -1,7 +1,9 @@
 #include "stages/detection/hand_detector.h"
 
+#include <cmath>
 #include <thread>
 
+#include "math/angles.h"
 #include "support/rendered_person.h"
 
 extern "C" void omp_set_num_threads(int);  // of libgomp, which oneDNN uses
@@ -113,6 +115,26 @@ TEST_F(HandDetectorTest, ALeftHandIsOneAndItsJointsAreNotMirrored) {
   EXPECT_LT(mean_error(detection.hands[0], *left, pose), 0.02);
 }
 
+TEST_F(HandDetectorTest, AHandOfAnUnsureSideIsReadAsTheOneThatIsLookedFor) {
+  int sure = 0, unsure = 0;
+  for (double turn = -90; turn <= 90; turn += 30) {
+    test::RenderedPerson person(test::vga_camera());
+    add_hand(*right_, test::turned(open_hand(*right_), {0, turn * kDegree, 0}, {0, 0, 0.6}), person);
+    for (const Handedness wanted : {Handedness::left, Handedness::right}) {
+      const auto detection = detector_->detect(*person.frame(), workers_, {}, wanted);
+      ASSERT_TRUE(detection);
+      for (const DetectedHand& hand : detection->hands) {
+        const bool is_sure = std::abs(hand.right_log_odds) >= 3;
+        ++(is_sure ? sure : unsure);
+        const Handedness seen = hand.right_log_odds < 0 ? Handedness::left : Handedness::right;
+        EXPECT_EQ(hand.side, is_sure ? seen : wanted) << turn;
+      }
+    }
+  }
+  EXPECT_GT(sure, 0);
+  EXPECT_GT(unsure, 0);
+}
+
 TEST_F(HandDetectorTest, TwoHandsAreTwo) {
   const auto left = test::adult_hand(Handedness::left);
   const HandPose right_pose = open_hand(*right_, -0.17), left_pose = open_hand(*left, 0.17);
@@ -122,7 +144,7 @@ TEST_F(HandDetectorTest, TwoHandsAreTwo) {
   const Detection detection = detect(*person.frame());
   ASSERT_EQ(detection.hands.size(), 2u);
   for (const DetectedHand& hand : detection.hands) {
-    const bool is_right = hand.side() == Handedness::right;
+    const bool is_right = hand.side == Handedness::right;
     EXPECT_LT(mean_error(hand, is_right ? *right_ : *left, is_right ? right_pose : left_pose), 0.025);
   }
 }

@@ -92,6 +92,7 @@ inline DetectedHand detected_hand(const HandProfile& profile, const HandPose& po
     hand.joints[k] = {joints[k], deviation * deviation * Eigen::Matrix3d::Identity()};
   hand.palm = palm;
   hand.right_log_odds = right_log_odds;
+  hand.side = profile.handedness;
   hand.labels.label.reset(1, 1, SurfaceLabel::hand);
   hand.labels.hand_log_odds.reset(1, 1, labels);
   return hand;

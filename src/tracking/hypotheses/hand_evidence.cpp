@@ -33,7 +33,7 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions.
-  const bool own_side = detected.side() == profile.handedness;
+  const bool own_side = detected.side == profile.handedness;
   const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), detected.joints, kScaleDeviation);
   cues.misfit = fit ? fit->cost : INFINITY;
   return cues;
