@@ -20,7 +20,7 @@ std::optional<ExpectedHand> expected_hand(const HandEstimate* earlier, const Rgb
       palm.velocity.allFinite() ? Eigen::Vector3d(palm.velocity.head<3>()) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d centre = palm.T_camera_segment * (0.5 * bone) + age * velocity;
   if (!(centre.z() > 0)) return std::nullopt;
-  return ExpectedHand{centre, earlier->handedness, {}};
+  return ExpectedHand{centre, earlier->handedness};
 }
 
 }  // namespace barehand
