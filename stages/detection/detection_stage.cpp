@@ -54,11 +54,12 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
 
   // Search the frame, or the windows around the tracked hands.
   Result<Detection> detection = Detection{};
+  const std::optional<Handedness> side = wanted(feedback);
   expect_tracked(frame, feedback);
   if (!look)
     detection = tl::unexpected(look.error());
   else if (whole)
-    detection = detector_->detect(frame, workers_, places_, wanted(feedback));
+    detection = detector_->detect(frame, workers_, places_, side);
   else if (windows)
     detection = detector_->detect_at(frame, places_, workers_);
 
@@ -69,7 +70,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
     detector_.reset();
     return nullptr;
   }
-  if (whole) sort_by_probability(detection->hands, wanted(feedback));
+  if (whole) sort_by_probability(detection->hands, side);
   // While a hand is missing, set whole_frame even if this frame was not searched as a whole: preprocessing then starts
   // the missing hand only where the networks find it, not at any other surface.
   detection->whole_frame = !all_tracked;

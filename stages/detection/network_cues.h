@@ -7,6 +7,9 @@
 
 namespace barehand {
 
+/// From these log odds of the side on, either way, the networks tell it: of most hands they are 4 to 20.
+inline constexpr double kToldSide = 3;
+
 /// Cues from the outputs of the networks on whether a detected hand really is a hand. The networks also report palms on
 /// feet, faces and held objects, and at the end of an arm whose hand is hidden. There the cues contradict each other.
 struct NetworkCues {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/detection/network_cues.h"
+
 namespace barehand {
 namespace {
 
-constexpr double kSame = 0.05;  // a palm that is farther away than this is another one [m]
-// Log odds of the side from which on it may well be a hand: of most hands they are 4 to 20.
-constexpr double kLikelySide = 3;
+constexpr double kSame = 0.05;        // a palm that is farther away than this is another one [m]
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
 constexpr int kSkipAfter = 6;         // count per search in which a place is skipped: most hands are tracked before
 constexpr int kMaxSkipped = 4;        // most searches in a row in which a place is skipped
@@ -43,7 +43,8 @@ void PalmHistory::examined(const Eigen::Vector3d& palm, double probability, cons
   place->palm = palm;
   place->log_odds = log_odds(probability);
   place->last_palm = place->last_examined = search_;
-  place->unlikely = !found || std::abs(found->right_log_odds) < kLikelySide;
+  // Of what is no hand, the networks mostly do not tell the side.
+  place->unlikely = !found || std::abs(found->right_log_odds) < kToldSide;
   place->unlikely_count =
       place->unlikely ? std::min(kSkipAfter * kMaxSkipped, place->unlikely_count + 1) : place->unlikely_count / 2;
 }

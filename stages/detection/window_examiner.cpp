@@ -3,13 +3,13 @@
 
 #include <cmath>
 
+#include "stages/detection/network_cues.h"
 #include "stages/detection/networks.h"
 
 namespace barehand {
 namespace {
 
-constexpr double kRecentre = 0.03;  // if the palm is off the window's centre by more, the window is moved [m]
-constexpr double kSureSide = 3;     // log odds of the side from which on it is sure: of most hands they are 4 to 20
+constexpr double kRecentre = 0.03;        // if the palm is off the window's centre by more, the window is moved [m]
 constexpr double kSmallestHand = 0.0012;  // minimum area of a hand in its window, facing the camera [m^2]
 
 /// Area of the pixels in a window that are labelled as hand, projected onto a plane facing the camera [m^2].
@@ -26,20 +26,22 @@ double hand_area(const LabelMap& labels, const DepthView& view, const Image<floa
   return area;
 }
 
-/// The side as which the joints of a hand are read: that of the log odds or, where they are not sure, the one that is
-/// looked for.
-Handedness side_to_read(double right_log_odds, std::optional<Handedness> wanted) {
-  if (wanted && std::abs(right_log_odds) < kSureSide) return *wanted;
+/// The side as which the joints of a hand at a place are read: the known one, or that of the log odds, or, where they
+/// are not sure, the one that is looked for.
+Handedness side_to_read(double right_log_odds, const ExpectedHand& place) {
+  if (place.side) return *place.side;
+  if (place.wanted && std::abs(right_log_odds) < kToldSide) return *place.wanted;
   return right_log_odds < 0 ? Handedness::left : Handedness::right;
 }
 
 }  // namespace
 
-/// Runs the second network on the window around `centre`. `mirrored`: the window is mirrored, which turns a left hand
-/// into a right one; the network was trained with right hands.
+/// Runs the second network on the window around `centre`, and reads the joints as those of a hand of this side. For a
+/// left hand the window is mirrored, since the network was trained with right hands.
 Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
-                                                           bool mirrored, Workers& workers) {
+                                                           Handedness side, Workers& workers) {
   // Run the network on the window.
+  const bool mirrored = side == Handedness::left;
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
@@ -53,39 +55,36 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
     hand.joints[k] = read_joint(*output, k, view, centre.z(), mirrored, frame.camera);
   hand.centre = 0.5 * (hand.joints[kWristLandmark].position + hand.joints[kMiddleKnuckleLandmark].position);
   hand.right_log_odds = mirrored ? -output->side : output->side;
-  hand.side = mirrored ? Handedness::left : Handedness::right;
+  hand.side = side;
   read_labels(*output, view, mirrored, hand.labels);
   window.hand_area = hand_area(hand.labels, view, depth_, frame.camera);
   return window;
 }
 
-/// Runs the second network at a place, and once more if the hand is off the window's centre or of the other side than
-/// the window was mirrored for.
+/// Runs the second network at a place, and once more if the hand is off the window's centre or is to be read as one of
+/// the other side.
 Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place,
                                                             Workers& workers) {
-  bool mirrored = (place.side ? place.side : place.wanted) == Handedness::left;
-  auto window = run_network(frame, place.centre, mirrored, workers);
+  auto window = run_network(frame, place.centre, side_to_read(0, place), workers);
   if (!window) return tl::unexpected(window.error());
 
   // Examine a second window if the hand is off the centre, or if it is of the other side.
-  const auto other_side = [&] {
-    return !place.side && side_to_read(window->hand.right_log_odds, place.wanted) != window->hand.side;
-  };
+  Handedness side = side_to_read(window->hand.right_log_odds, place);
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
-  if (aside || other_side()) {
+  if (aside || side != window->hand.side) {
     if (window->hand.centre.z() <= 0) return std::nullopt;
-    mirrored = mirrored != other_side();
-    window = run_network(frame, window->hand.centre, mirrored, workers);
+    window = run_network(frame, window->hand.centre, side, workers);
     if (!window) return tl::unexpected(window.error());
+    side = side_to_read(window->hand.right_log_odds, place);
   }
 
-  // If the network finds again that the hand is of the side opposite to the mirroring, run it also on the window with
-  // the other mirroring. The average of the log odds decides the side, and the window for that side gives the joints.
-  if (other_side() && window->hand.centre.z() > 0) {
-    auto other = run_network(frame, window->hand.centre, !mirrored, workers);
+  // If it is of the other side again, examine that window, too. The average of the log odds decides the side, and the
+  // window for that side gives the joints.
+  if (side != window->hand.side && window->hand.centre.z() > 0) {
+    auto other = run_network(frame, window->hand.centre, side, workers);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
-    if (side_to_read(right, place.wanted) != window->hand.side) *window = std::move(*other);
+    if (side_to_read(right, place) == side) *window = std::move(*other);
     window->hand.right_log_odds = right;
   }
   if (window->hand_area < kSmallestHand) return std::nullopt;

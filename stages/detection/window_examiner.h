@@ -24,7 +24,7 @@ class WindowExaminer {
     DetectedHand hand;
     double hand_area = 0;  // area of the pixels labelled as hand, projected onto a plane facing the camera [m^2]
   };
-  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, bool mirrored, Workers& workers);
+  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, Handedness side, Workers& workers);
 
   Network crop_;
   Image<float> depth_;  // scratch: the depth image, resampled for the current window
