@@ -9,9 +9,13 @@ void Track::continue_with(const Hypothesis& best, const HandProfile& profile, co
   std::array<bool, kSegmentCount> seen;
   for (int s = 0; s < kSegmentCount; ++s) seen[s] = best.refined.matched[s] >= params.seen_fraction;
   HandPose pose = best.refined.pose;
+  // If fingers may be confused, it is not known either where they would touch an object.
+  auto holds = best.refined.holds;
+  if (is_ambiguous(best.score(), params.choice))
+    for (FingerHold& hold : holds) hold.closed.reset();
   if (params.hidden_follow)
-    pose = hidden_fingers.follow(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched,
-                                 best.refined.holds, params.initialiser.widening);
+    pose = hidden_fingers.follow(profile, motion.pose(), pose, best.prediction->dt, seen, best.refined.matched, holds,
+                                 params.initialiser.widening);
   motion.update(pose, seen, *best.prediction);
 }
 
