@@ -141,7 +141,7 @@ Result<Evaluation> evaluate(const ResultTable& truth, const ResultTable& result,
 
     // Compare the poses if the result has the frame, which must then have the time stamp of the truth.
     if (const auto found = results.find(frame.number); found != results.end()) {
-      if (std::abs(found->second->timestamp - frame.timestamp) > 0.001)
+      if (!same_time(found->second->timestamp, frame.timestamp))
         return fail("frame " + std::to_string(frame.number) + " has other time stamps in truth and result", {},
                     "compare tables of the same recording");
       errors = frame_errors(frame, *found->second);

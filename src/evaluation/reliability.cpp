@@ -98,8 +98,11 @@ Result<Reliability> evaluate_reliability(const std::vector<std::pair<ResultTable
     for (const TableFrame& frame : truth.frames) {
       const auto said = stated.find(frame.number);
       if (said == stated.end()) continue;
+      if (!same_time(frame.timestamp, said->second.utime * 1e-6))
+        return fail("frame " + std::to_string(frame.number) + " has other time stamps in truth and states", {},
+                    "give the truth of the same recording");
       sums.add_frame();
-      for (int s = 0; s < kSegmentCount; ++s) sums.add(frame.rows[s], said->second[s]);
+      for (int s = 0; s < kSegmentCount; ++s) sums.add(frame.rows[s], said->second.segments[s]);
     }
 
   // Report an error if no frame has a pose in both tables.

@@ -18,8 +18,13 @@ struct StatedSegment {
   double confidence = 0;                                   ///< SegmentState::confidence
   bool seen = false;                                       ///< estimated from data; false: inferred
 };
-/// The stated poses of all segments, by frame number.
-using StatedPoses = std::map<std::int64_t, std::array<StatedSegment, kSegmentCount>>;
+/// The stated pose of a hand in one frame.
+struct StatedPose {
+  std::int64_t utime = 0;  ///< time stamp of the frame [us]
+  std::array<StatedSegment, kSegmentCount> segments;
+};
+/// The stated poses, by frame number.
+using StatedPoses = std::map<std::int64_t, StatedPose>;
 
 /// Agreement of the stated covariances of segment ends with their actual errors. The covariance of an end yields a 90 %
 /// interval along each of the three axes of the camera frame.
@@ -57,8 +62,8 @@ struct Reliability {
   std::vector<ReliabilityBin> confidences;
 };
 
-/// Evaluates several sequences, each given by the truth and the stated poses, over the frames that both contain. Error:
-/// there is no such frame.
+/// Evaluates several sequences, each given by the truth and the stated poses, over the frames that both contain.
+/// Errors: there is no such frame; one has other time stamps in the two.
 Result<Reliability> evaluate_reliability(const std::vector<std::pair<ResultTable, StatedPoses>>& sequences);
 
 }  // namespace barehand

@@ -19,12 +19,13 @@ std::pair<ResultTable, StatedPoses> sequence(double stated, std::uint32_t key, d
   std::pair<ResultTable, StatedPoses> out;
   for (int i = 0; i < 200; ++i) {
     TableFrame frame{i, 0.1 * i, {}};
+    out.second[i].utime = 100'000 * i;
     for (int s = 0; s < kSegmentCount; ++s) {
       frame.rows[s] = {{0.01 * s, 0, 0.5}, {0.01 * s, 0.03, 0.5}, 1};
 
       // Both ends are off by random errors.
       const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() * stated * stated;
-      out.second[i][s] = {
+      out.second[i].segments[s] = {
           frame.rows[s].proximal + off(), frame.rows[s].distal + off(), covariance, covariance, confidence, s < 8};
     }
     out.first.frames.push_back(frame);
@@ -66,6 +67,12 @@ TEST(Reliability, BinsHoldWhatWasSaidAgainstWhatWas) {
 TEST(Reliability, WithoutACommonFrameThereIsNothingToSay) {
   auto other = sequence(kDeviation, 1);
   for (TableFrame& frame : other.first.frames) frame.number += 1000;
+  EXPECT_FALSE(evaluate_reliability({other}));
+}
+
+TEST(Reliability, StatesOfAnotherRecordingAreRefused) {
+  auto other = sequence(kDeviation, 1);
+  other.second[3].utime += 5000;
   EXPECT_FALSE(evaluate_reliability({other}));
 }
 

@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto stated = read_stated_poses(file.path());
   if (!stated) return 0;
   ResultTable truth;
-  for (const auto& [number, segments] : *stated) truth.frames.push_back({number, 0, {}});
+  for (const auto& [number, pose] : *stated) truth.frames.push_back({number, pose.utime * 1e-6, {}});
   const auto reliability = evaluate_reliability({{truth, *stated}});
   CHECK(reliability && reliability->frames == stated->size() && std::isfinite(reliability->all.stated));
   return 0;

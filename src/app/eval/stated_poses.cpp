@@ -66,7 +66,8 @@ Result<StatedPoses> read_stated_poses(const std::string& log_path) {
                   "give the log of a single run on a single recording");
 
     // Read the segments, and refuse numbers that do not form a pose.
-    auto& segments = frame->second;
+    frame->second.utime = state.utime;
+    auto& segments = frame->second.segments;
     for (int s = 0; s < kSegmentCount; ++s) segments[s] = stated(state.segments[s]);
     if (!std::all_of(segments.begin(), segments.end(), sensible))
       return fail("frame " + std::to_string(state.frame_number) + " has a pose with invalid numbers", log_path,

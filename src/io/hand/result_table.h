@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct TableFrame {
   double timestamp = 0;     ///< time stamp of the frame [s]
   std::array<TableRow, kSegmentCount> rows;
 };
+
+/// Whether two time stamps [s] are those of one frame: tables and messages round them differently.
+inline bool same_time(double a, double b) { return std::abs(a - b) <= 0.001; }
 
 /// The table's rows of an estimate, which must have a pose (`has_pose()`) and a profile.
 TableFrame table_frame(const HandEstimate& estimate);
