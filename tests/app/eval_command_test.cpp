@@ -108,6 +108,7 @@ TEST_F(EvalCommand, JudgesTheUncertaintyOfStatesInALog) {
   for (int i = 0; i < 3; ++i) {
     hand_state_t state{};
     state.frame_number = i;
+    state.utime = 100'000 * i;
     state.has_pose = i < 2;
     for (segment_state_t& s : state.segments) {  // 2 mm off along x, like the poses of out.csv
       s.position[0] = 0.002, s.position[2] = s.distal[2] = 0.5, s.distal[0] = 0.002 - 0.03;
@@ -296,6 +297,13 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   EXPECT_EQ(report["frames"], 4);
   EXPECT_EQ(report["stated"], 1);
   EXPECT_EQ(report["lost"], 3);
+
+  // Beside a log, the simulator begins the names of both files with that of the log.
+  std::filesystem::rename(folder_ / "objects.csv", folder_ / "take.objects.csv");
+  EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/take.objects.csv"), 2);
+  EXPECT_THAT(err_, HasSubstr("take.block.obj: there is no such file"));
+  std::filesystem::rename(folder_ / "block.obj", folder_ / "take.block.obj");
+  EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/take.objects.csv"), 0) << err_;
 }
 
 TEST_F(EvalCommand, EvaluatesTheRestWhereAnObjectWasNeverFound) {

@@ -182,14 +182,23 @@ Result<void> add_grasps(const EvalOptions& o, EvalReport& report) {
   return {};
 }
 
-/// The mesh of an object lies beside the table of its poses, as the simulator writes it.
+/// The mesh of an object, beside the table of its poses as the simulator writes both: NAME.obj beside objects.csv, and
+/// FILE.NAME.obj beside FILE.objects.csv.
+std::filesystem::path mesh_of(const std::filesystem::path& table, const std::string& name) {
+  const std::string file = table.filename().string(), ending = "objects.csv";
+  const std::string begin = file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : "";
+  return table.parent_path() / (begin + name + ".obj");
+}
+
 Result<void> add_objects(const EvalOptions& o, EvalReport& report) {
   for (std::size_t i = 0; i < o.objects.size(); ++i) {
     // Read the true poses, and the mesh that stands beside their table.
     auto truth = read_object_truth(o.objects[i]);
     if (!truth) return tl::unexpected(truth.error());
-    const auto folder = std::filesystem::path(o.objects[i]).parent_path();
-    const auto loaded = load_mesh((folder / (truth->name + ".obj")).string(), LengthUnit::metre);
+    const std::filesystem::path mesh = mesh_of(o.objects[i], truth->name);
+    if (!std::filesystem::exists(mesh))
+      return fail("there is no such file", mesh.string(), "put the object's mesh beside the table of its poses");
+    const auto loaded = load_mesh(mesh.string(), LengthUnit::metre);
     if (!loaded) return tl::unexpected(loaded.error());
 
     // Compare them with the published states.

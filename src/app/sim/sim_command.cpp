@@ -99,9 +99,9 @@ void add_sim_command(CLI::App& app, int& exit_code) {
   sim->footer(
       "A file, here FILE.lcmlog, gets FILE.truth.csv, FILE.hand.json and FILE.start_pose.json beside it; where "
       "two hands are seen, "
-      "those of the left one end in _left. Where a hand grasps an object, there are also objects.csv, contacts.csv, "
-      "grasps.csv and "
-      "the object's mesh. Ctrl-C: what is written so far is a complete recording.");
+      "those of the left one end in _left. Where a hand grasps an object, there are also FILE.objects.csv, "
+      "FILE.contacts.csv, FILE.grasps.csv and the object's mesh, FILE.NAME.obj. Ctrl-C: what is written so far is a "
+      "complete recording.");
   sim->callback([a, &exit_code] { exit_code = run(*a); });
 }
 
