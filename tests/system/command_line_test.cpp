@@ -173,6 +173,17 @@ TEST(Track, RecordsFromThePageOnlyIntoAFolder) {
   }
 }
 
+TEST(Track, StopsAtAMissingFolderOfAnOutput) {
+  const test::TempFolder folder;
+  const std::string nowhere = folder / "nowhere";
+  for (const auto& [option, file] : {std::pair("--result", "a.csv"), {"--save-hand", "a.json"}, {"--mcap", "a.mcap"}}) {
+    const Outcome outcome =
+        barehand({"track", "--source", "sim:fist,frames=1", "--no-publish", option, nowhere + "/" + file});
+    EXPECT_EQ(outcome.exit_code, 2) << "systemd would start it again for ever: " << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("there is no folder " + nowhere + " (make the folder first)"));
+  }
+}
+
 TEST(Track, PrintsTheConfigInForceAndTakesItBack) {
   const Outcome printed = barehand({"track", "--print-config", "--seed", "42"});
   EXPECT_EQ(printed.exit_code, 0);

@@ -66,6 +66,17 @@ std::vector<Output> outputs_of(const TrackOptions& o, const TwoHandTracker::Prof
   return outputs;
 }
 
+/// Refuses a file whose folder is missing, so that a typing error ends the run before its first frame.
+Result<void> check_folders(const std::vector<Output>& outputs) {
+  std::error_code ignored;
+  for (const Output& output : outputs) {
+    const std::filesystem::path folder = std::filesystem::path(output.path).parent_path();
+    if (output.kind == Kind::file && !folder.empty() && !std::filesystem::exists(folder, ignored))
+      return fail("there is no folder " + folder.string(), output.option + " " + output.path, "make the folder first");
+  }
+  return {};
+}
+
 /// Checks the endings of outputs whose kind they say.
 Result<void> check_endings(const TrackOptions& o) {
   return check_ending({"--mcap", o.mcap}, mcap::is_mcap_name(o.mcap), ".mcap")
@@ -113,6 +124,7 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
   if (const auto good = check_outputs(source, inputs, outputs_of(options, hands), options.overwrite || number); !good)
     return tl::unexpected(good.error());
   if (const auto good = check_endings(options); !good) return tl::unexpected(good.error());
+  if (const auto good = check_folders(outputs_of(options, hands)); !good) return tl::unexpected(good.error());
   if (!number) return options;
 
   // Give a number to the names that an earlier run has taken.
