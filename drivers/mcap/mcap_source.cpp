@@ -213,7 +213,8 @@ Result<void> McapSource::add_frames(const std::string& topic) {
   const Stream* camera = camera_of(topic);
   if (camera == nullptr && !options_.foreign.any())
     return fail("there are no intrinsics for " + topic + ": no camera info on " + namespace_of(topic) + "/camera_info",
-                path_, "give them: --fx, --fy, --cx, --cy, or foreign_camera in the configuration");
+                path_,
+                "give them: foreign_camera in the configuration, or --fx, --fy, --cx, --cy of record and convert");
   if (camera != nullptr && camera->lens)
     warnings_.push_back(path_ + ": the coefficients of lens distortion in " + namespace_of(topic) +
                         "/camera_info are not used: record rectified images where they matter");

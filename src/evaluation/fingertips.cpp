@@ -51,7 +51,7 @@ Result<std::vector<FingertipLabel>> read_fingertip_labels(const std::string& pat
     bool visible = false;
     if (!parse_label(text, label, visible))
       return fail("line " + std::to_string(number) + ": is \"" + text + "\"", path,
-                  "a line holds frame,finger,u,v,visible");
+                  "a line holds frame,finger,u,v,visible; a finger is thumb, index, middle, ring or little");
     if (visible) labels.push_back(label);
   }
   return labels;
