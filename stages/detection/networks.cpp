@@ -12,6 +12,9 @@ namespace {
 // Longest and shortest focal length of a window (DepthView) that is resampled for the network `full` [px of the
 // window].
 constexpr double kFullFocal = 131.25, kShortestFocal = 105;
+// Most columns and rows of such windows. Four are enough for 120 degrees; more are wanted only with a wrong focal
+// length, and would take seconds a frame.
+constexpr double kMostInARow = 6;
 // The input of `full` is the difference from the depth kMiddleDepth, clipped to the range from kFullNear to kFullFar
 // [m].
 constexpr float kMiddleDepth = 1, kFullNear = -1, kFullFar = 1.5;
@@ -33,7 +36,7 @@ std::vector<DepthView> frame_views(const Intrinsics& camera) {
       std::max(camera.width / (camera.fx * kFullShape.width), camera.height / (camera.fy * kFullShape.height));
   const double focal = std::clamp(1 / wide, kShortestFocal, kFullFocal);
   const auto count = [&](int pixels, double f, int width) {
-    return std::max(1, static_cast<int>(std::ceil(pixels * focal / (f * width) - 1e-6)));
+    return static_cast<int>(std::clamp(std::ceil(pixels * focal / (f * width) - 1e-6), 1.0, kMostInARow));
   };
 
   // Count the columns and rows of windows.

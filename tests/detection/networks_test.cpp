@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "stages/detection/detection_stage.h"
+#include "stages/detection/networks.h"
 #include "support/rendered_person.h"
 #include "support/temp_folder.h"
 #include "support/text_logger.h"
@@ -41,6 +42,12 @@ class NetworksTest : public ::testing::Test {
   }
   test::TempFolder folder_;
 };
+
+TEST(FrameViews, AreFewAlsoForAFocalLengthInMillimetres) {
+  EXPECT_EQ(frame_views({640, 480, 525, 525, 319.5, 239.5}).size(), 1u);
+  EXPECT_GT(frame_views({640, 480, 185, 185, 319.5, 239.5}).size(), 1u) << "120 degrees";
+  EXPECT_LE(frame_views({640, 480, 3.6, 3.6, 319.5, 239.5}).size(), 36u);
+}
 
 TEST_F(NetworksTest, TheShippedOnesLoad) { EXPECT_EQ(error(), ""); }
 
