@@ -17,10 +17,15 @@ Result<RowFile> RowFile::create(const std::string& path, std::string_view header
   RowFile rows(path, header, std::move(*whole));
   if (const int file = rows.whole_.open(); file >= 0) rows.file_.reset(fdopen(file, "w"));
   if (rows.file_) std::setvbuf(rows.file_.get(), nullptr, _IONBF, 0);
-  if (!rows.file_ || !rows.append(rows.header_))
-    return fail(std::string("cannot be written: ") + std::strerror(errno), path,
-                "check the folder, its permissions and the free space");
-  return rows;
+  if (rows.file_ && rows.append(rows.header_)) return rows;
+
+  // A disk that is full now may have room for the rows.
+  const int reason = errno;
+  const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+  rows.headless_ = rows.file_ && full && !rows.whole_.direct() && rows.cut_back();
+  if (rows.headless_) return rows;
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path,
+              "check the folder, its permissions and the free space");
 }
 
 RowFile::~RowFile() {
@@ -31,6 +36,12 @@ Result<void> RowFile::finish() {
   if (!file_) return {};
   file_.reset();
   return whole_.finish();
+}
+
+/// Cuts the file back to the end of the last complete write, if that is possible.
+bool RowFile::cut_back() {
+  std::clearerr(file_.get());
+  return ftruncate(fileno(file_.get()), good_) == 0 && fseeko(file_.get(), good_, SEEK_SET) == 0;
 }
 
 bool RowFile::append(std::string_view text) {
@@ -47,24 +58,23 @@ Result<void> RowFile::write(std::string_view rows) {
   if (!has_room(fileno(file_.get()), header_.size() + rows.size()))
     return fail("the reader of this pipe is behind", path_, "rows are left out until it has read more");
 
-  // Write the rows, after the header if the reader of a pipe is new.
-  if (unread_ ? append(header_ + std::string(rows)) : append(rows)) {
-    unread_ = false;
+  // Write the rows, after the header if it is still to be written.
+  if (headless_ ? append(header_ + std::string(rows)) : append(rows)) {
+    headless_ = false;
     has_rows_ = true;
     return {};
   }
 
   // A pipe without a reader gets the header again later.
   const int reason = errno;
-  std::FILE* file = file_.get();
-  std::clearerr(file);
   if (reason == EPIPE) {
-    unread_ = true;
+    std::clearerr(file_.get());
+    headless_ = true;
     return fail("no program reads this pipe", path_, "the table starts again when one does");
   }
 
   // Cut the file back to the end of the last complete write.
-  torn_ = whole_.direct() || ftruncate(fileno(file), good_) != 0 || fseeko(file, good_, SEEK_SET) != 0;
+  torn_ = whole_.direct() || !cut_back();
   return fail(std::string("cannot be written: ") + std::strerror(reason), path_,
               torn_ ? "the table ends in an incomplete frame, which readers ignore"
                     : "the frames before this one are kept; free some space");

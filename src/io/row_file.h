@@ -17,7 +17,7 @@ namespace barehand {
 class RowFile {
  public:
   /// Creates the file and writes the header, which is given without a line end. An existing file is replaced only if
-  /// `overwrite`; otherwise it is an error.
+  /// `overwrite`; otherwise it is an error. On a full disk the header is written with the first rows.
   static Result<RowFile> create(const std::string& path, std::string_view header, bool overwrite);
   RowFile(RowFile&&) noexcept = default;
   RowFile& operator=(RowFile&&) = delete;
@@ -38,6 +38,7 @@ class RowFile {
     header_ += '\n';
   }
   bool append(std::string_view text);
+  bool cut_back();
 
   std::string path_, header_;
   AtomicFile whole_;
@@ -45,7 +46,8 @@ class RowFile {
   bool has_rows_ = false;
   std::int64_t good_ = 0;  ///< size of the file up to the last complete write
   bool torn_ = false;      ///< whether the file could not be cut back after a failed write
-  bool unread_ = false;    ///< whether the reader of the pipe was gone at the last write
+  bool headless_ = false;  ///< whether the header is to be written before the next rows: the pipe has lost its reader,
+                           ///< or the disk was full
 };
 
 }  // namespace barehand

@@ -125,6 +125,22 @@ TEST_F(Table, FullDiskIsReported) {
   EXPECT_FALSE(TableWriter::create(folder_ / "no/such/folder.csv"));
 }
 
+TEST_F(Table, OnADiskThatIsFullAtFirstTheHeaderComesWithTheRows) {
+  auto writer = [&] {
+    const test::FileSizeLimit full(10);
+    auto created = TableWriter::create(path_);
+    EXPECT_TRUE(created);
+    EXPECT_FALSE(created->write(numbered_frame(0)));
+    return created;
+  }();
+  ASSERT_TRUE(writer->write(numbered_frame(1)));
+  ASSERT_TRUE(writer->finish());
+  const auto table = read_table(path_);
+  ASSERT_TRUE(table) << table.error().message();
+  ASSERT_EQ(table->frames.size(), 1u);
+  EXPECT_EQ(table->frames[0].number, 1);
+}
+
 TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   auto writer = TableWriter::create(path_);
   ASSERT_TRUE(writer->write(numbered_frame(0)));
