@@ -187,6 +187,13 @@ TEST_F(ConfigFile, DoubledKeyIsAnError) {
   EXPECT_THAT(error_of(good_ + "levels: 4\n"), HasSubstr("key 'levels' occurs twice"));
 }
 
+TEST_F(ConfigFile, ASecondDocumentIsAnError) {
+  for (const char* rest : {"---\nlevels: 4\n", "...\nlevels: 4\n"})
+    EXPECT_THAT(error_of("levels: 3\n" + std::string(rest)), HasSubstr(path_ + ":3: a second document begins")) << rest;
+  EXPECT_THAT(error_of("levels: 3\n...\nlevels: {4\n"), HasSubstr("not valid YAML"));
+  EXPECT_TRUE(load("---\nlevels: 3\n...\n"));
+}
+
 TEST_F(ConfigFile, AllProblemsAreToldAtOnceInOrderOfLines) {
   std::string text = with("levels: 10", "levels: ten");
   text += "lost: 1\n";

@@ -134,14 +134,20 @@ Result<ConfigReader> ConfigReader::open(const std::string& path) {
   if (!text) return tl::unexpected(text.error());
 
   // Parse the text, and name the line of the first mistake.
-  YAML::Node root;
+  std::vector<YAML::Node> documents;
   try {
-    root = YAML::Load(*text);
+    documents = YAML::LoadAll(*text);
   } catch (const YAML::ParserException& e) {
     return fail("not valid YAML: " + e.msg, path + ":" + std::to_string(e.mark.line + 1), "correct the line");
   }
 
+  // Nothing of the file is left unread.
+  if (documents.size() > 1)
+    return fail("a second document begins", path + ":" + std::to_string(documents[1].Mark().line + 1),
+                "give all keys in one, without lines of --- or ... between them");
+
   // Begin with the group that holds all keys.
+  const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
   if (!root.IsMap()) return fail("no keys in the configuration", path, "--print-config writes one");
   state->groups.push_back({root, "", {}});
   return ConfigReader(std::move(state));
