@@ -173,6 +173,15 @@ TEST(Track, RecordsFromThePageOnlyIntoAFolder) {
   }
 }
 
+TEST(Track, StopsAtADepthRangeThatIsEmpty) {
+  const test::TempFolder folder;
+  const std::string path = folder / "range.yaml";
+  test::write_text(path, "preprocess: {min_depth: 0.5, max_depth: 0.4}\n");
+  const Outcome outcome = barehand({"track", "--source", "sim:fist", "--config", path});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr(path + ": preprocess: nothing lies between min_depth and max_depth"));
+}
+
 TEST(Track, StopsAtAMissingFolderOfAnOutput) {
   const test::TempFolder folder;
   const std::string nowhere = folder / "nowhere";

@@ -26,6 +26,9 @@ Result<Config> read_configuration(const std::string& name) {
   return find_config(name).and_then([](const std::string& path) {
     auto config = load_config<Config>(path);
     if (!config) return config;
+    if (config->preprocess.min_depth >= config->preprocess.max_depth)
+      return Result<Config>(fail("nothing lies between min_depth and max_depth", path + ": preprocess",
+                                 "give a max_depth that is larger than min_depth"));
     const auto world = world_from(config->world, path + ": world.T_world_camera");
     return world ? config : tl::unexpected(world.error());
   });
