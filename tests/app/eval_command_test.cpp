@@ -224,6 +224,10 @@ TEST_F(EvalCommand, BadCallsSayWhatIsMissing) {
   EXPECT_THAT(err_, HasSubstr("/no/such/place.json: cannot be written"));
   EXPECT_THAT(out_, HasSubstr("frames 3")) << "what was computed is printed all the same";
 
+  // Numbers that are none of a frame.
+  EXPECT_EQ(run("eval --result %/out.csv --truth %/truth.csv --start -9223372036854775808 --step -1"), 2);
+  EXPECT_THAT(err_, HasSubstr("--start"));
+
   // Labels that do not fit.
   EXPECT_EQ(run("eval --result %/out.csv %/out.csv --truth %/truth.csv --label one"), 2);
   EXPECT_THAT(err_, HasSubstr("--label"));
@@ -304,6 +308,10 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   EXPECT_THAT(err_, HasSubstr("take.block.obj: there is no such file"));
   std::filesystem::rename(folder_ / "block.obj", folder_ / "take.block.obj");
   EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/take.objects.csv"), 0) << err_;
+
+  // Nor is the mesh replaced, though no option names it.
+  EXPECT_EQ(run("eval --states %/states.lcmlog --objects %/take.objects.csv --json %/take.block.obj --overwrite"), 2);
+  EXPECT_THAT(err_, HasSubstr("never replaced"));
 }
 
 TEST_F(EvalCommand, EvaluatesTheRestWhereAnObjectWasNeverFound) {

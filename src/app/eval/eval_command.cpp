@@ -66,9 +66,18 @@ Result<void> check(const EvalOptions& o) {
     return fail("--label must be given once for each --result", "eval");
   if (!o.fingertips.empty() && (o.recording.empty() || o.hand.empty()))
     return fail("--fingertips needs the camera and the fingers' thickness", "eval", "add --recording DIR and --hand");
+  if (o.start.value_or(0) < 0) return fail("no frame has a negative number", "--start", "give the number of a frame");
   if (o.step == 0)
     return fail("a step of 0 would repeat one frame without end", "--step", "choose 1, 2 ... or -1, -2 ...");
   return {};
+}
+
+/// The mesh of an object, beside the table of its poses as the simulator writes both: NAME.obj beside objects.csv, and
+/// FILE.NAME.obj beside FILE.objects.csv.
+std::filesystem::path mesh_of(const std::filesystem::path& table, const std::string& name) {
+  const std::string file = table.filename().string(), ending = "objects.csv";
+  const std::string begin = file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : "";
+  return table.parent_path() / (begin + name + ".obj");
 }
 
 /// Checks that the files to be written may be written and are none of those that are read. The plots are those that
@@ -81,7 +90,10 @@ Result<void> check_written(const EvalOptions& o) {
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
   for (const std::string& path : o.grasps) inputs.push_back({"--grasps", path});
   for (const std::string& path : o.contacts) inputs.push_back({"--contacts", path});
-  for (const std::string& path : o.objects) inputs.push_back({"--objects", path});
+  for (const std::string& path : o.objects) {
+    inputs.push_back({"--objects", path});
+    if (const auto truth = read_object_truth(path)) inputs.push_back({"--objects", mesh_of(path, truth->name)});
+  }
 
   // List the files that are written.
   std::vector<Output> outputs{{"--json", o.json}};
@@ -180,14 +192,6 @@ Result<void> add_grasps(const EvalOptions& o, EvalReport& report) {
   if (!grasps) return tl::unexpected(grasps.error());
   report.grasps = std::move(*grasps);
   return {};
-}
-
-/// The mesh of an object, beside the table of its poses as the simulator writes both: NAME.obj beside objects.csv, and
-/// FILE.NAME.obj beside FILE.objects.csv.
-std::filesystem::path mesh_of(const std::filesystem::path& table, const std::string& name) {
-  const std::string file = table.filename().string(), ending = "objects.csv";
-  const std::string begin = file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : "";
-  return table.parent_path() / (begin + name + ".obj");
 }
 
 Result<void> add_objects(const EvalOptions& o, EvalReport& report) {
