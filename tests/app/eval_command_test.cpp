@@ -310,7 +310,9 @@ TEST_F(EvalCommand, ComparesOnlyPosesOfObjectsThatArePoses) {
   EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/take.objects.csv"), 0) << err_;
 
   // Nor is the mesh replaced, though no option names it.
-  EXPECT_EQ(run("eval --states %/states.lcmlog --objects %/take.objects.csv --json %/take.block.obj --overwrite"), 2);
+  EXPECT_EQ(run("eval --states %/states.lcmlog --grasps %/grasps.csv --objects %/take.objects.csv --overwrite "
+                "--json %/take.block.obj"),
+            2);
   EXPECT_THAT(err_, HasSubstr("never replaced"));
 }
 

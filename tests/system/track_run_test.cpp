@@ -350,13 +350,13 @@ TEST_F(TrackRun, AKilledRunLeavesItsDraftsReadable) {
 }
 
 TEST_F(TrackRun, OutputThatCannotBeCreatedStopsTheStart) {
-  ChildProcess child({BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--result",
-                      "/nonexistent/result.csv"});
+  ChildProcess child(
+      {BAREHAND_PROGRAM, "track", "--source", "folder:" + folder_, "--no-publish", "--result", "/proc/result.csv"});
   EXPECT_EQ(child.finish(), 1);
-  EXPECT_THAT(child.output(), HasSubstr("/nonexistent/result.csv"));
-  ChildProcess saving(track({"--save-hand", "/nonexistent/mine.json"}));
+  EXPECT_THAT(child.output(), HasSubstr("/proc/result.csv: cannot be written"));
+  ChildProcess saving(track({"--save-hand", "/proc/mine.json"}));
   EXPECT_EQ(saving.finish(), 1);
-  EXPECT_THAT(saving.output(), HasSubstr("/nonexistent/mine.json: cannot be written"));
+  EXPECT_THAT(saving.output(), HasSubstr("/proc/mine.json: cannot be written"));
 }
 
 TEST_F(TrackRun, AMeshThatIsReadIsNotReplaced) {
