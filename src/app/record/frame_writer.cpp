@@ -91,11 +91,6 @@ class FolderFrameWriter : public FrameWriter {
   RecordingWriter writer_;
 };
 
-/// The names of the logs of a set (RotatingLog), with a star for what differs.
-std::string name_of_set(const std::filesystem::path& path) {
-  return path.parent_path() / (path.stem().string() + "-*" + path.extension().string());
-}
-
 }  // namespace
 
 bool is_log_path(const std::string& path) { return is_log_name(path); }
@@ -110,7 +105,7 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());
-    return std::make_unique<LogFrameWriter>([path] { return name_of_set(path); }, options, std::move(*log));
+    return std::make_unique<LogFrameWriter>([path] { return pattern_of_set(path); }, options, std::move(*log));
   }
   if (is_log_path(path)) {
     auto log = LcmLogWriter::create(path, options.overwrite);

@@ -121,10 +121,11 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
   for (const std::string& object : options.objects.paths) inputs.push_back({"--object", object});
   const SourceFiles source = files_of_source(options.source);
   const bool number = live && !options.overwrite;
-  if (const auto good = check_outputs(source, inputs, outputs_of(options, hands), options.overwrite || number); !good)
+  const std::vector<Output> outputs = outputs_of(options, hands);
+  if (const auto good = check_outputs(source, inputs, outputs, options.overwrite || number); !good)
     return tl::unexpected(good.error());
   if (const auto good = check_endings(options); !good) return tl::unexpected(good.error());
-  if (const auto good = check_folders(outputs_of(options, hands)); !good) return tl::unexpected(good.error());
+  if (const auto good = check_folders(outputs); !good) return tl::unexpected(good.error());
   if (!number) return options;
 
   // Give a number to the names that an earlier run has taken.

@@ -127,6 +127,10 @@ std::optional<std::int64_t> number_in_set(const fs::path& log, const fs::path& s
   return std::stoll(parts[2]);
 }
 
+std::string pattern_of_set(const fs::path& set) {
+  return set.parent_path() / (set.stem().string() + "-*" + set.extension().string());
+}
+
 Result<FoundLogs> find_logs(const std::string& path) {
   // List all logs of a folder.
   std::error_code error;

@@ -21,6 +21,9 @@ std::string utc_stamp(std::int64_t utime);
 /// 7th of take.lcmlog. None if it does not belong to the set.
 std::optional<std::int64_t> number_in_set(const std::filesystem::path& log, const std::filesystem::path& set);
 
+/// What the names of all logs of such a set have in common, for messages: take-*.lcmlog.
+std::string pattern_of_set(const std::filesystem::path& set);
+
 struct FoundLogs {
   std::vector<std::string> files;  ///< in the order they were written
   std::vector<Error> left_out;     ///< drafts that are not used, and why
