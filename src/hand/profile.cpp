@@ -18,7 +18,7 @@ double HandProfile::hand_length() const {
 HandProfile mirrored(const HandProfile& profile) {
   const Eigen::Vector3d flip(-1, 1, 1);
   HandProfile other = profile;
-  other.handedness = profile.handedness == Handedness::right ? Handedness::left : Handedness::right;
+  other.handedness = opposite(profile.handedness);
   for (SegmentProfile& segment : other.segments) {
     // M R M with M = diag(flip) keeps a frame right-handed, with -z along the bone and +y dorsal.
     segment.T_hand_segment.R = flip.asDiagonal() * segment.T_hand_segment.R * flip.asDiagonal();

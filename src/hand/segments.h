@@ -34,5 +34,8 @@ std::string_view to_string(Handedness side);
 /// 1 for a right hand, -1 for a left one. Mirroring a hand in x changes the sign of offsets along x and of rotations
 /// about y and z.
 constexpr double side_sign(Handedness side) { return side == Handedness::right ? 1.0 : -1.0; }
+constexpr Handedness opposite(Handedness side) {
+  return side == Handedness::right ? Handedness::left : Handedness::right;
+}
 
 }  // namespace barehand

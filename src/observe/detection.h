@@ -54,6 +54,8 @@ struct DetectedJoint {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< covariance of the position [m^2]
 };
 
+using DetectedJoints = std::array<DetectedJoint, kLandmarkCount>;
+
 /// One hand that a detection found. Camera frame, metres.
 struct DetectedHand {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the palm, between wrist and middle knuckle
@@ -61,8 +63,16 @@ struct DetectedHand {
   double palm = 0;
   double right_log_odds = 0;            ///< log odds of a right hand against a left one
   Handedness side = Handedness::right;  ///< the joints are those of a hand of this side
-  std::array<DetectedJoint, kLandmarkCount> joints;
+  DetectedJoints joints;
+  /// Its joints if it is a hand of the other side. None, unless both sides are looked for and the networks cannot tell
+  /// them apart.
+  std::optional<DetectedJoints> other_joints = {};
   LabelMap labels;  ///< labels of a window of about 0.34 m around the hand
+
+  /// Whether there are joints of a hand of this side.
+  bool may_be(Handedness of) const { return of == side || other_joints; }
+  /// The joints of a hand of this side if there are any, otherwise those of the other side.
+  const DetectedJoints& joints_of(Handedness of) const { return of == side || !other_joints ? joints : *other_joints; }
 };
 
 /// Result of the detection networks for one frame. Immutable once shared.

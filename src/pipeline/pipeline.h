@@ -32,7 +32,7 @@ struct PipelineStages {
   /// `feedback`: the estimates of an earlier frame, see kFeedbackLag; empty for the first frames and where a stage
   /// failed.
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
-  std::function<Result<HandEstimates>(const HandObservations& observations)> track;
+  std::function<Result<HandEstimates>(HandObservations& observations)> track;
   std::vector<Sink*> sinks;  ///< every sink gets every frame, in this order
   /// What the hands touch; runs on the thread of the sinks. Empty: frames have no contacts.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)>

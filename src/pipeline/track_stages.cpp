@@ -45,7 +45,7 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       std::make_shared<std::unique_ptr<Preprocessor>>(std::make_unique<Preprocessor>(config.preprocess, hands));
   const auto only = hands == 1 ? std::optional(profiles[0]->handedness) : std::nullopt;
   auto detection = std::make_shared<DetectionStage>(config.detection, path_in_configs(config.detection.networks),
-                                                    config.preprocess.use_colour, workers, log.shared_logger(), only);
+                                                    workers, log.shared_logger(), only);
 
   // Make the tracker, which starts at the given pose if there is one.
   auto tracker =
@@ -84,7 +84,7 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
     const bool needs_labels = (*preprocessor)->needs_labels();
     return (*preprocessor)->process(frame, feedback, detection->process(frame, feedback, needs_labels));
   };
-  stages.track = [tracker, feedback](const HandObservations& observations) {
+  stages.track = [tracker, feedback](HandObservations& observations) {
     if (feedback) tracker->couple_with(feedback->wait());
     auto estimates = tracker->process(observations);
     if (feedback) feedback->next();

@@ -22,7 +22,7 @@ namespace barehand {
 /// The stages of PipelineStages that compute: each function owns the objects that it calls.
 struct TrackStages {
   std::function<Result<HandObservations>(const FramePtr& frame, const HandEstimates& feedback)> preprocess;
-  std::function<Result<HandEstimates>(const HandObservations& observations)> track;
+  std::function<Result<HandEstimates>(HandObservations& observations)> track;
   /// Also finds the objects that the tracker gets back, then without contacts if the configuration wants none and no
   /// object is known. Empty if neither is wanted.
   std::function<Result<FrameContactsPtr>(const HandObservations& observations, const HandEstimates& estimates)> contact;

@@ -31,7 +31,8 @@ std::string too_late(double stamp, StampUnit unit);
 std::string unlikely_steps(std::vector<std::int64_t> steps, std::int64_t last, StampUnit unit);
 
 /// Checks the time stamps and sets the frame numbers of one channel by the rules in docs/formats.md, "Time". Every
-/// source calls number() for every frame, in the order in which the frames were recorded or arrive.
+/// source but OpenNI2, whose stamps DeviceClock makes, calls number() for every frame, in the order in which the frames
+/// were recorded or arrive.
 ///  - A frame whose stamp equals the previous one, or is earlier by less than a second, is a repetition or late: it is
 ///    not used.
 ///  - A stamp that is earlier by a second or more is a restart: the recorder was started again, or its clock was set.

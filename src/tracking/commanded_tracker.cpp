@@ -17,7 +17,7 @@ CommandedTracker::CommandedTracker(const TrackerParams& params, const TwoHandTra
       changed_(changed),
       tracker_(params, profiles, seed, workers, log.shared_logger()) {}
 
-Result<HandEstimates> CommandedTracker::process(const HandObservations& observations) {
+Result<HandEstimates> CommandedTracker::process(HandObservations& observations) {
   // Take changed parameters and new commands.
   if (const auto params = changed_ ? changed_->take() : std::nullopt) tracker_.change(*params);
   if (inbox_) collect(observations[0]->frame->sensor);
@@ -67,12 +67,12 @@ void CommandedTracker::follow(const Command& command) {
   if (hands.empty()) return;
   if (command.kind == Command::Kind::reset) {
     log_.logger().info("command: forget the hand and search again");
-    for (const int k : hands) tracker_.hand(k).apply(ResetTracker{});
+    for (const int k : hands) tracker_.reset(k);
   } else if (command.kind == Command::Kind::initialise) {
     if (hands.size() > 1)
       return log_.warn("command", "ignored a pose: two hands are tracked, so the command must name one");
     log_.logger().info("command: track from the given pose");
-    tracker_.hand(hands[0]).apply(StartAt{command.pose});
+    tracker_.start_at(hands[0], command.pose);
   } else {
     // Use the given profile from now on, and warn of what is implausible about it.
     auto profile = parse_profile(command.profile, "command");
@@ -85,7 +85,7 @@ void CommandedTracker::follow(const Command& command) {
 
 void CommandedTracker::use(const std::vector<int>& hands, HandProfile profile) {
   for (const int k : hands) {
-    if (tracker_.count() > 1 && tracker_.hand(k).view().profile->handedness != profile.handedness) continue;
+    if (tracker_.count() > 1 && tracker_.view(k).profile->handedness != profile.handedness) continue;
     log_.logger().info("command: use the given hand profile");
     return tracker_.use(k, std::make_shared<const HandProfile>(std::move(profile)));
   }

@@ -30,13 +30,13 @@ class CommandedTracker {
   CommandedTracker(const TrackerParams& params, const TwoHandTracker::Profiles& profiles, std::uint64_t seed,
                    Workers& workers, Inbox inbox, RepeatLog& log, Slot<TrackerParams>* changed = nullptr);
 
-  /// Executes commands, then tracks the hands in this frame. Never returns an error: the pipeline requires this type of
-  /// every stage.
-  Result<HandEstimates> process(const HandObservations& observations);
+  /// Executes commands, then tracks the hands in this frame (TwoHandTracker::process). Never returns an error: the
+  /// pipeline requires this type of every stage.
+  Result<HandEstimates> process(HandObservations& observations);
   /// Lets the hands couple with the objects near them (CoupleWith), from the next frame on.
   void couple_with(std::span<const NearbyObject> objects) { tracker_.couple_with(objects); }
   /// Tracks the first hand from this pose, T_camera_segment, on.
-  void start_at(const HandPose& pose) { tracker_.hand(0).apply(StartAt{pose}); }
+  void start_at(const HandPose& pose) { tracker_.start_at(0, pose); }
 
  private:
   void collect(const std::string& sensor);

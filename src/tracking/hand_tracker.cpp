@@ -109,6 +109,7 @@ void HandTracker::start_where_given(const HandObservation& observation, bool eno
 void HandTracker::start_track() {
   track_.ambiguous_frames = 0;
   track_.hidden_fingers.forget();
+  proposers_.start_track();
   estimates_.start_track();
   person_.start_track();
 }

@@ -18,7 +18,7 @@ PersonModel::PersonModel(const TrackerContext& context, std::shared_ptr<const Ha
       given_(std::move(given)),
       given_skin_(skin ? std::move(skin) : skin_of(*given_, context.params)),
       model_(model_of(given_, given_skin_)) {
-  if (context_.params.shape_fit.enabled) start_learning();
+  start_learning();
 }
 
 std::unique_ptr<HandModel> PersonModel::model_of(std::shared_ptr<const HandProfile> profile,
@@ -35,13 +35,13 @@ void PersonModel::start_learning() {
   size_in_view_ = 1;
   size_reported_ = false;
   const TrackerParams& params = context_.params;
-  if (!given_->scanned_skin)
+  const bool learns = params.shape_fit.enabled, of_mean = given_->origin == ProfileOrigin::mean;
+  if (learns && !given_->scanned_skin)
     scan_ = std::make_unique<PersonScan>(PersonScanParams{params.refinement, params.shape_fit, params.skin_cell},
                                          given_, context_.workers);
-  if (given_->origin == ProfileOrigin::mean)
+  if (learns && of_mean)
     fit_.emplace(params.shape_fit, given_, given_skin_, params.skin_cell, context_.workers, stop_fit_.get_token());
-  else
-    expect_any_size();
+  if (!of_mean) expect_any_size();
 }
 
 void PersonModel::expect_any_size() {
@@ -49,7 +49,6 @@ void PersonModel::expect_any_size() {
 }
 
 void PersonModel::reset() {
-  if (!context_.params.shape_fit.enabled) return;
   if (model_->profile != given_) model_ = model_of(given_, given_skin_);
   start_learning();
 }

@@ -109,6 +109,7 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
   // Search with the mirrored profile in the same observation.
   auto other = other_side().search(observation, effort, confident ? 1 : std::min(attempts, kMirroredAttempts));
   const double other_score = other ? other->score() : INFINITY;
+  other_side().process(observation, std::nullopt);  // ends its frame, since it gathers evidence over frames
 
   // After a verification found the other side, the profile's side must win several successive searches.
   const bool worse = clearly_better(other_score, score);
@@ -162,9 +163,9 @@ std::optional<double> ProfileVerifier::other_size_in_view(const HandObservation&
   if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_checks_ >= kSizeChecks)
     return std::nullopt;
   ++size_checks_;
-  const bool own_side = observation.detected->side == profile_.handedness;
-  const auto seen =
-      fit_size_to_joints(own_side ? profile_ : mirrored(profile_), observation.detected->joints, kAnySize);
+  const DetectedJoints& joints = observation.detected->joints_of(profile_.handedness);
+  const bool own_side = observation.detected->may_be(profile_.handedness);
+  const auto seen = fit_size_to_joints(own_side ? profile_ : mirrored(profile_), joints, kAnySize);
   if (!seen || std::abs(std::log(seen->scale)) < kOtherSize) return std::nullopt;
   if (confirmed_size_ && std::abs(std::log(seen->scale / *confirmed_size_)) < kSameSize) return confirmed_size_;
   return verified_size(observation, score, std::log(seen->scale));

@@ -23,9 +23,7 @@ void Track::change(const TrackerParams& params) {
   MotionModel next(params.prediction, params.icp);
   if (motion.has_pose()) next.restart(motion.pose(), motion.utime());
   motion = std::move(next);
-  const bool followed = state.phase() == TrackPhase::tracking || state.phase() == TrackPhase::holding;
-  state = TrackState(params.loss);
-  if (followed) state.start_tracking();
+  state.change(params.loss);
 }
 
 void Track::forget() {

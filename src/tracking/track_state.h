@@ -74,6 +74,8 @@ class TrackState {
 
   explicit TrackState(const LossParams& params) : params_(params) {}
 
+  /// Continues with other thresholds.
+  void change(const LossParams& params) { params_ = params; }
   /// Processes one frame and returns the new phase.
   TrackPhase update(const TrackEvidence& evidence);
   TrackPhase phase() const { return phase_; }

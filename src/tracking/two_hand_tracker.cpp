@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace barehand {
 namespace {
@@ -59,34 +60,45 @@ void TwoHandTracker::couple_with(std::span<const NearbyObject> objects) {
   for (const auto& hand : hands_) hand->apply(CoupleWith{objects});
 }
 
-HandEstimates TwoHandTracker::process(const HandObservations& observations) {
+void TwoHandTracker::reset(int k) {
+  verifiers_[k]->end_verification();
+  hands_[k]->apply(ResetTracker{});
+}
+
+void TwoHandTracker::start_at(int k, const HandPose& pose) {
+  verifiers_[k]->end_verification();
+  hands_[k]->apply(StartAt{pose});
+}
+
+HandEstimates TwoHandTracker::process(HandObservations& observations) {
   // With one hand, no observation has to be assigned.
   if (count() == 1) return {process_single_hand(*observations[0])};
   ++frame_;
-  const HandObservations ordered = by_hand(observations);
+  if (exchanged(observations)) std::swap(observations[0], observations[1]);
   HandEstimates out(hands_.size());
 
   // Track the hands that are being tracked, in parallel.
   FrameVector<int> tracked;
   for (int k = 0; k < count(); ++k)
-    if (!searched(k, *ordered[k])) tracked.push_back(k);
+    if (!searched(k, *observations[k])) tracked.push_back(k);
   workers_.for_each_index(static_cast<int>(tracked.size()), [&](int i) {
     const int k = tracked[i];
-    out[k] = verifiers_[k]->verifying() ? track_with_mirrored(k, *ordered[k]) : hands_[k]->process(*ordered[k]);
+    out[k] =
+        verifiers_[k]->verifying() ? track_with_mirrored(k, *observations[k]) : hands_[k]->process(*observations[k]);
   });
 
   // End tracks that turn out to be of the other side, check the sizes, and search the other hands.
   for (const int k : tracked) {
     apply_verification(k, *out[k]);
-    check_tracked_size(k, *ordered[k], *out[k]);
+    check_tracked_size(k, *observations[k], *out[k]);
   }
 
   // Without a tracked hand, search both hands at once.
   if (tracked.empty())
-    search_both(ordered, out);
+    search_both(observations, out);
   else
     for (int k = 0; k < count(); ++k)
-      if (!out[k]) search_one(k, ordered, out);
+      if (!out[k]) search_one(k, observations, out);
   return out;
 }
 
@@ -102,16 +114,16 @@ HandEstimatePtr TwoHandTracker::track_with_mirrored(int k, const HandObservation
 /// A hand that was tracked alone may turn out to be of the other side. If there is a tracker for the other side, it
 /// continues from the mirrored pose.
 void TwoHandTracker::apply_verification(int k, const HandEstimate& estimate) {
-  HandTracker* const other = count() == 2 ? hands_[1 - k].get() : nullptr;
+  const bool has_other = count() == 2;
   ProfileVerifier& check = *verifiers_[k];
-  if (other && other->view().status == TrackStatus::tracking) check.end_verification();
+  if (has_other && view(1 - k).status == TrackStatus::tracking) check.end_verification();
   if (!check.verifying() || !check.turns_out_other_side(estimate)) return;
-  hands_[k]->apply(ResetTracker{});
-  if (other) other->apply(StartAt{check.mirrored_pose()});
+  reset(k);
+  if (has_other) start_at(1 - k, check.mirrored_pose());
 }
 
 void TwoHandTracker::check_tracked_size(int k, const HandObservation& observation, const HandEstimate& estimate) {
-  if (!params_.size_check || estimate.status != TrackStatus::tracking || hands_[k]->view().size_mismatch) return;
+  if (!params_.size_check || estimate.status != TrackStatus::tracking || view(k).size_mismatch) return;
   const auto size = verifiers_[k]->other_size_in_view(observation, estimate.score);
   if (size) hands_[k]->apply(NoteSizeMismatch{*size});
 }
@@ -160,34 +172,38 @@ HandEstimatePtr TwoHandTracker::process_single_hand(const HandObservation& obser
   return hand.process(observation, std::move(found));
 }
 
-/// Without feedback, preprocessing returns the regions in no particular order, so the assignment with the smaller total
-/// distance is taken.
-HandObservations TwoHandTracker::by_hand(const HandObservations& observations) const {
-  if (observations[0]->followed || observations[1]->followed) return observations;
+bool TwoHandTracker::follows(int k, const HandObservation& observation) const {
+  return observation.followed && view(k).expected_pose;
+}
+
+/// Preprocessing returns the regions in no particular order if it had no feedback, and in a wrong one while its
+/// feedback is older than the decision that a hand is of the other side. The assignment with the smaller total distance
+/// is taken.
+bool TwoHandTracker::exchanged(const HandObservations& observations) const {
+  if (follows(0, *observations[0]) || follows(1, *observations[1])) return false;
   const auto apart = [&](int k, int j) {
-    const HandPose* pose = hands_[k]->view().expected_pose;
+    const HandPose* pose = view(k).expected_pose;
     return pose ? distance(*pose, *observations[j]) : 0;
   };
-  if (apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1)) return {observations[1], observations[0]};
-  return observations;
+  return apart(0, 1) + apart(1, 0) < apart(0, 0) + apart(1, 1);
 }
 
 /// A hand is searched if it has neither a track nor a given start, and the observation belongs to no tracked hand.
 bool TwoHandTracker::searched(int k, const HandObservation& observation) const {
-  const TrackView track = hands_[k]->view();
-  return !observation.followed && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
+  const TrackView track = view(k);
+  return !follows(k, observation) && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
 }
 
 void TwoHandTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Hypothesis> found;
-  const TrackView track = hands_[k]->view();
-  if (observations[k]->detected || frame_ % kSearchEvery == 0)
+  const TrackView track = view(k);
+  if (!track.start_is_given && (observations[k]->detected || frame_ % kSearchEvery == 0))
     found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
   check_found_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
 }
 
-void TwoHandTracker::search_both(const HandObservations& observations, HandEstimates& out) {
+void TwoHandTracker::search_both(HandObservations& observations, HandEstimates& out) {
   std::array<std::array<std::optional<Hypothesis>, 2>, 2> found;  // [hand][observation]
 
   // A side that finds no hand gets the score of a bad explanation, not infinity. A detection that confirms a pose
@@ -196,8 +212,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   const Choice choice(params_.choice);
   const auto score = [&](int k, int j) {
     if (!found[k][j]) return none;
-    return std::min(choice.score_with_detection(*observations[j], *hands_[k]->view().profile, found[k][j]->refined),
-                    none);
+    return std::min(choice.score_with_detection(*observations[j], *view(k).profile, found[k][j]->refined), none);
   };
 
   // Whether one of the sides explains the observation well enough already.
@@ -206,7 +221,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
   };
 
   // Both sides search with the same effort, which gives them equal chances.
-  const std::array<TrackView, 2> tracks = {hands_[0]->view(), hands_[1]->view()};
+  const std::array<TrackView, 2> tracks = {view(0), view(1)};
   const bool full = tracks[0].effort == Effort::full || tracks[1].effort == Effort::full;
   const Effort effort = full ? Effort::full : Effort::quick;
   const int most = std::max(tracks[0].attempts(effort), tracks[1].attempts(effort));
@@ -246,6 +261,7 @@ void TwoHandTracker::search_both(const HandObservations& observations, HandEstim
     out[k] = j < 0 ? hands_[k]->process(*observations[k], std::nullopt)
                    : hands_[k]->process(*observations[j], std::move(found[k][j]));
   }
+  if (owned[0] == 1 || owned[1] == 0) std::swap(observations[0], observations[1]);
 }
 
 }  // namespace barehand

@@ -24,16 +24,19 @@ class TwoHandTracker {
                  std::shared_ptr<spdlog::logger> log = make_silent_logger());
 
   /// Processes one frame. `observations`: one per hand; they are in the order of the profiles if preprocessing had
-  /// feedback, and in any order otherwise (see by_hand()). Returns the estimates in the order of the profiles.
-  HandEstimates process(const HandObservations& observations);
+  /// feedback, and in any order otherwise. They are put in the order of the profiles, like the returned estimates.
+  HandEstimates process(HandObservations& observations);
+  /// Forgets the k-th hand and the person, and searches.
+  void reset(int k);
+  /// Tracks the k-th hand from a pose on (StartAt).
+  void start_at(int k, const HandPose& pose);
   /// Lets every hand couple with the objects near it (CoupleWith).
   void couple_with(std::span<const NearbyObject> objects);
   int count() const { return static_cast<int>(hands_.size()); }
-  /// The tracker of the k-th hand.
-  HandTracker& hand(int k) { return *hands_[k]; }
+  TrackView view(int k) const { return hands_[k]->view(); }
   /// Tracks another person's hand as the k-th one from the next frame on.
   void use(int k, std::shared_ptr<const HandProfile> profile);
-  /// Continues with other parameters; see UseParams.
+  /// Continues with other parameters (UseParams). If it throws, the first hand may have changed.
   void change(const TrackerParams& params);
 
  private:
@@ -51,12 +54,14 @@ class TwoHandTracker {
   bool check_found_size(int k, const HandObservation& observation, std::optional<Hypothesis>& found);
   // Processes a whole frame if there is only one hand.
   HandEstimatePtr process_single_hand(const HandObservation& observation);
-  // Returns the observations in the order of the hands.
-  HandObservations by_hand(const HandObservations& observations) const;
+  // Whether preprocessing followed the k-th hand to its observation, and the hand was not given up since.
+  bool follows(int k, const HandObservation& observation) const;
+  // Whether the two observations belong to the other hand each.
+  bool exchanged(const HandObservations& observations) const;
   // Whether the k-th hand is searched in this observation instead of being tracked.
   bool searched(int k, const HandObservation& observation) const;
   void search_one(int k, const HandObservations& observations, HandEstimates& out);
-  void search_both(const HandObservations& observations, HandEstimates& out);
+  void search_both(HandObservations& observations, HandEstimates& out);
 
   TrackerParams params_;
   std::uint64_t seed_;

@@ -17,14 +17,9 @@ bool is_tracked(const HandEstimatePtr& earlier) { return earlier && earlier->sta
 
 }  // namespace
 
-DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour,
-                               Workers& workers, std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only)
-    : params_(params),
-      use_colour_(use_colour),
-      workers_(workers),
-      log_(std::move(log)),
-      only_(only),
-      second_look_(params.second_look_every) {
+DetectionStage::DetectionStage(const DetectionParams& params, const std::string& folder, Workers& workers,
+                               std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only)
+    : params_(params), workers_(workers), log_(std::move(log)), only_(only), second_look_(params.second_look_every) {
   if (!params.enabled) return;
   auto detector = HandDetector::load(folder, params);
   if (!detector) {
@@ -47,7 +42,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   const auto tracked = std::ranges::count_if(feedback, is_tracked);
   const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
   const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
-  const bool colour = use_colour_ && has_colour(frame) && !needs_labels;
+  const bool colour = has_colour(frame) && !needs_labels;
   const bool windows = tracked && turn % params_.every_tracked == 0 && !colour;
   const auto look = second_look_.next(shared, feedback, *detector_, workers_);
   if (look && !*look && all_tracked && !windows) return nullptr;

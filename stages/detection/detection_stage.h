@@ -20,9 +20,9 @@ namespace barehand {
 /// nothing is detected.
 class DetectionStage {
  public:
-  /// `folder`: contains the networks. `use_colour`: whether preprocessing uses colour if the frame has it.
-  /// `only`: the side of the hand, if a single one is to be tracked; hands of the other side are then returned last.
-  DetectionStage(const DetectionParams& params, const std::string& folder, bool use_colour, Workers& workers,
+  /// `folder`: contains the networks. `only`: the side of the hand, if a single one is to be tracked; hands of the
+  /// other side are then returned last.
+  DetectionStage(const DetectionParams& params, const std::string& folder, Workers& workers,
                  std::shared_ptr<spdlog::logger> log, std::optional<Handedness> only = std::nullopt);
 
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
@@ -38,7 +38,6 @@ class DetectionStage {
   void expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
   DetectionParams params_;
-  bool use_colour_;
   Workers& workers_;
   std::shared_ptr<spdlog::logger> log_;
   std::optional<Handedness> only_;

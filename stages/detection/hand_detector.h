@@ -28,9 +28,9 @@ class HandDetector {
   static Result<HandDetector> load(const std::string& folder, const DetectionParams& params);
 
   /// Finds all hands of the frame, at most kMostHands. What has long been unlikely to be a hand is found in every
-  /// second search only; the places of `tracked` hands never wait. `wanted`: the side that is looked for, if only one
-  /// is: a hand of which the networks are not sure is read as one of that side. Error: a network returns values that
-  /// are not finite.
+  /// second to fifth search only (PalmHistory); the places of `tracked` hands never wait. `wanted`: the side that is
+  /// looked for, if only one is: a hand of which the networks are not sure is read as one of that side. Error: a
+  /// network returns values that are not finite.
   Result<Detection> detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked = {},
                            std::optional<Handedness> wanted = std::nullopt);
 

@@ -2,6 +2,7 @@
 #include "stages/detection/window_examiner.h"
 
 #include <cmath>
+#include <utility>
 
 #include "stages/detection/network_cues.h"
 #include "stages/detection/networks.h"
@@ -62,7 +63,7 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
 }
 
 /// Runs the second network at a place, and once more if the hand is off the window's centre or is to be read as one of
-/// the other side.
+/// the other side, or of either.
 Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place,
                                                             Workers& workers) {
   auto window = run_network(frame, place.centre, side_to_read(0, place), workers);
@@ -78,14 +79,16 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
     side = side_to_read(window->hand.right_log_odds, place);
   }
 
-  // If it is of the other side again, examine that window, too. The average of the log odds decides the side, and the
-  // window for that side gives the joints.
-  if (side != window->hand.side && window->hand.centre.z() > 0) {
-    auto other = run_network(frame, window->hand.centre, side, workers);
+  // If it is of the other side again, or if the networks cannot tell which of both sides it is, read the window as the
+  // other side, too. The average of the log odds decides the side, and the window for that side gives the joints.
+  const bool either = !place.side && !place.wanted && std::abs(window->hand.right_log_odds) < kToldSide;
+  if ((either || side != window->hand.side) && window->hand.centre.z() > 0) {
+    auto other = run_network(frame, window->hand.centre, opposite(window->hand.side), workers);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
-    if (side_to_read(right, place) == side) *window = std::move(*other);
+    if (side_to_read(right, place) == other->hand.side) std::swap(*window, *other);
     window->hand.right_log_odds = right;
+    if (either && std::abs(right) < kToldSide) window->hand.other_joints = other->hand.joints;
   }
   if (window->hand_area < kSmallestHand) return std::nullopt;
   return std::move(window->hand);

@@ -20,8 +20,8 @@ class HandMask {
   /// Computes `mask` (1 = hand) for a region whose cleaned depth and depth edges are given. A hand pixel is at the
   /// depth of a neighbouring hand cell and on the hand's side of the wrist, and its colour, averaged over `skew_px`, is
   /// skin. Pixels near depth edges or without colour are decided by their depth-connected neighbours. If the whole
-  /// frame has no colour, the labels of the detected hand decide, if there are any. Cells of the other `hands` are left
-  /// out.
+  /// frame has no colour, or colour misleads, the labels of the detected hand decide, if there are any. Cells of the
+  /// other `hands` are left out.
   void compute(const RgbdFrame& frame, const SkinModel& skin, const CoarseGrid& grid, const CoarseHand& hand,
                std::span<const CoarseHand> hands, const Region& region, const Image<float>& depth,
                const Image<std::uint8_t>& edge, Image<std::uint8_t>& mask);

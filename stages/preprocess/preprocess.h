@@ -31,8 +31,9 @@ class Preprocessor {
   Result<HandObservations> process(const FramePtr& frame, std::span<const HandEstimatePtr> feedback,
                                    const DetectionPtr& detection = nullptr);
 
-  /// Whether colour does not tell a followed hand from what touches it, so that the next frame's detection should.
-  bool needs_labels() const { return locator_.colour_misleads(); }
+  /// Whether colour, if there is any, does not tell a followed hand from what touches it, so that the next frame's
+  /// detection should.
+  bool needs_labels() const { return !params_.use_colour || locator_.colour_misleads(); }
 
  private:
   HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands,

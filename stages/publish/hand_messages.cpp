@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "hand/joint_angles.h"
 #include "stages/publish/glove_angles.h"
@@ -163,6 +164,7 @@ hand_joints_t joints_message(const FrameState& frame) {
 
 HandMessages HandMessageMaker::process(const HandEstimate& estimate) {
   if (estimate.profile) profile_ = estimate.profile;
+  if (std::exchange(hand_id_, estimate.hand_id) != estimate.hand_id) smoother_.reset();
   const PublishedTrack track = hold_.update(estimate, params_);
   FrameState frame{estimate, track, profile_.get(), {}, {}};
   if (track.has_pose) {

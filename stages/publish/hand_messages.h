@@ -35,6 +35,7 @@ class HandMessageMaker {
   PublishParams params_;
   PoseHold hold_;
   PoseSmoother smoother_;
+  std::int32_t hand_id_ = 0;                    // of the last estimate
   std::shared_ptr<const HandProfile> profile_;  ///< last known profile, since the estimate of a lost hand may have none
 };
 

@@ -12,7 +12,6 @@ namespace barehand {
 // Fits a hand profile to detected joints.
 
 /// The joints of a detected hand, in the order of landmarks (detection.h).
-using DetectedJoints = std::array<DetectedJoint, kLandmarkCount>;
 
 /// The pose that was fitted to detected joints, and how well it agrees with them.
 struct KinematicFit {

@@ -17,7 +17,7 @@ class DetectionStageTest : public ::testing::Test {
   }
   DetectionStage stage(DetectionParams params = {}) {
     params.enabled = true;
-    return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", true, workers_, make_silent_logger());
+    return DetectionStage(params, std::string(BAREHAND_CONFIGS) + "/nets", workers_, make_silent_logger());
   }
   HandEstimatePtr earlier(TrackStatus status) const {
     auto estimate = std::make_shared<HandEstimate>();
@@ -35,7 +35,7 @@ class DetectionStageTest : public ::testing::Test {
 };
 
 TEST_F(DetectionStageTest, SwitchedOffItFindsNothing) {
-  DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", true, workers_, make_silent_logger());
+  DetectionStage off({.enabled = false}, std::string(BAREHAND_CONFIGS) + "/nets", workers_, make_silent_logger());
   EXPECT_EQ(off.process(frame_, {}), nullptr);
 }
 

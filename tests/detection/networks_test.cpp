@@ -118,7 +118,7 @@ TEST_F(NetworksTest, WithoutThemTheStageSaysSoOnceAndDetectsNothing) {
   DetectionParams params;
   params.enabled = true;
   Workers workers(1);
-  DetectionStage stage(params, folder_.path(), true, workers, test::text_logger(said));
+  DetectionStage stage(params, folder_.path(), workers, test::text_logger(said));
   const auto frame = test::RenderedPerson(test::vga_camera()).frame();
   EXPECT_EQ(stage.process(frame, {}), nullptr);
   EXPECT_EQ(stage.process(frame, {}), nullptr);

@@ -75,7 +75,7 @@ struct World {
   RunResult run(FrameSource& source) {
     PipelineStages stages{source,
                           [this](const FramePtr& f, const HandEstimates& before) { return preprocess(f, before); },
-                          [this](const HandObservations& o) { return track(o); },
+                          [this](HandObservations& o) { return track(o); },
                           sinks,
                           contact,
                           grasp};

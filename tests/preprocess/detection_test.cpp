@@ -136,6 +136,12 @@ TEST_F(DetectionMask, LabelsTellAThingOfTheColourOfSkinFromTheHandAsLongAsItTouc
   EXPECT_FALSE(preprocessor_.needs_labels());
 }
 
+TEST_F(DetectionMask, LabelsAreNeededIfColourIsNotUsed) {
+  PreprocessParams params;
+  params.use_colour = false;
+  EXPECT_TRUE(Preprocessor(params, 1).needs_labels());
+}
+
 TEST_F(DetectionMask, AtAStartSkinThatIsLabelledAsObjectIsHandOnItsBonesOnly) {
   const auto detection = std::make_shared<Detection>(*detected(bare_hand()));
   LabelMap& labels = detection->hands[0].labels;

@@ -55,7 +55,7 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
   ContactStage contact({});
   HandMessageMaker maker({});
   HandPose pose = test::facing_pose(*profile, 0.5, 0.4);
-  tracker.hand(0).apply(StartAt{pose});
+  tracker.start_at(0, pose);
   HandEstimates estimates;
   Counts counts;
   for (int k = 0; k < kWarmUp + kCounted; ++k) {
@@ -64,7 +64,7 @@ Counts allocations_per_frame(TrackerParams params, int hands = 1) {
     frame->utime = k * 33'000;
     frame->sensor = "left";
     const std::int64_t start = allocations;
-    const HandObservations observations = preprocessor.process(frame, estimates).value();
+    HandObservations observations = preprocessor.process(frame, estimates).value();
     const std::int64_t preprocessed = allocations;
     estimates = tracker.process(observations);
     const std::int64_t tracked = allocations;

@@ -22,7 +22,10 @@ using ::testing::Not;
 class CommandedTrackerTest : public ::testing::Test {
  protected:
   HandObservationPtr seen(const HandObservation& what) { return test::stamped(what, utime_ += 33'000); }
-  HandEstimatePtr next() { return tracker_.process({seen(*hand_)})->front(); }
+  HandEstimatePtr next() {
+    HandObservations observations{seen(*hand_)};
+    return tracker_.process(observations)->front();
+  }
   void send(Command command) { waiting_.push_back(std::move(command)); }
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
@@ -140,7 +143,10 @@ TEST_F(CommandedTrackerTest, AProfileGoesToTheHandOfItsSide) {
     CommandedTracker tracker(
         test::quick_tracker(), {profile_, left}, 1, workers_, [this] { return std::exchange(waiting_, {}); }, log);
     HandEstimates hands;
-    const auto step = [&] { hands = *tracker.process({seen(*hand_), seen(HandObservation())}); };
+    const auto step = [&] {
+      HandObservations observations{seen(*hand_), seen(HandObservation())};
+      hands = *tracker.process(observations);
+    };
     if (late) step();
     for (const char* side : {"left", "right"}) {
       Command command;

@@ -46,5 +46,15 @@ TEST_F(TrackTest, ClosesAHiddenFingerOnAnObject) { EXPECT_GT(flexion_after(kUsua
 
 TEST_F(TrackTest, ClosesNoFingerIfFingersMayBeConfused) { EXPECT_NEAR(flexion_after(kAmbiguousScore), 0, 1); }
 
+TEST_F(TrackTest, OtherParametersLeaveItsStateAsItIs) {
+  Track track(params_);
+  track.state.start_tracking();
+  TrackEvidence no_data;
+  no_data.dt = 1.0 / 30;
+  while (track.state.update(no_data) != TrackPhase::lost) ASSERT_NE(track.state.phase(), TrackPhase::searching);
+  track.change(params_);
+  EXPECT_EQ(track.state.phase(), TrackPhase::lost);
+}
+
 }  // namespace
 }  // namespace barehand

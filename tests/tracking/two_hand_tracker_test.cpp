@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <utility>
 
 #include "hand/skin.h"
 #include "support/painted_hand.h"
@@ -41,7 +42,8 @@ class TwoHandTrackerTest : public ::testing::Test {
     return tracker.process(observations);
   }
   HandEstimates next(TwoHandTracker& tracker, const HandObservationPtr& only) {
-    return tracker.process({at(utime_ += 33'000, *only, false)});
+    HandObservations observations{at(utime_ += 33'000, *only, false)};
+    return tracker.process(observations);
   }
   HandEstimates next_times(int frames, TwoHandTracker& tracker, const HandObservationPtr& first,
                            const HandObservationPtr& second, std::array<bool, 2> followed = {}) {
@@ -134,14 +136,44 @@ TEST_F(TwoHandTrackerTest, AHandAloneGoesOverToTheOtherSideWhereThatTurnsOutLate
   for (int i = 0; i < 6 && (i == 0 || last[kRight]->status != TrackStatus::tracking); ++i)
     last = next(tracker_, right_hand_, nothing(), {});
   ASSERT_EQ(last[kRight]->status, TrackStatus::tracking);
+
   // A left hand takes the place, palm for palm. The right hand's profile explains it badly, but keeps tracking it for
-  // a while.
+  // a while. As in the pipeline, preprocessing follows the hand that was tracked two frames ago.
   const HandObservationPtr left_hand = seen(*left_, 0.2, kRightX);
-  int frames = 0;
-  while (++frames < 60 && last[kLeft]->status != TrackStatus::tracking) last = next(tracker_, left_hand, nothing(), {});
-  EXPECT_EQ(last[kLeft]->status, TrackStatus::tracking);
-  EXPECT_NE(last[kRight]->status, TrackStatus::tracking);
-  EXPECT_GT(frames, 10);
+  HandEstimates before = last, feedback = last;
+  int handed_over = 0, id = 0;
+  for (int frame = 1; frame < 60; ++frame) {
+    const bool right_followed = feedback[kRight]->status == TrackStatus::tracking,
+               left_followed = feedback[kLeft]->status == TrackStatus::tracking;
+    feedback = std::exchange(before, last);
+    const HandObservationPtr none = nothing();
+    last = next(tracker_, left_followed ? none : left_hand, left_followed ? left_hand : none,
+                {right_followed, left_followed});
+
+    // Once the left hand is tracked, it remains so, and the right one does not return.
+    if (!handed_over && last[kLeft]->status == TrackStatus::tracking) {
+      handed_over = frame;
+      id = last[kLeft]->hand_id;
+    }
+    if (!handed_over) continue;
+    ASSERT_EQ(last[kLeft]->status, TrackStatus::tracking) << frame;
+    ASSERT_NE(last[kRight]->status, TrackStatus::tracking) << frame;
+    ASSERT_EQ(last[kLeft]->hand_id, id) << frame;
+  }
+  EXPECT_GT(handed_over, 10);
+}
+
+TEST_F(TwoHandTrackerTest, PutsTheObservationsInTheOrderOfTheHands) {
+  HandEstimates found;
+  for (int i = 0; i < 6; ++i) {
+    HandObservations observations{at(utime_ += 33'000, *left_hand_, false), at(utime_, *right_hand_, false)};
+    const HandObservationPtr left = observations[0];
+    found = tracker_.process(observations);
+    if (found[kRight]->status != TrackStatus::tracking) continue;
+    EXPECT_EQ(observations[kLeft], left) << i;
+  }
+  EXPECT_EQ(found[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(found[kLeft]->status, TrackStatus::tracking);
 }
 
 TEST_F(TwoHandTrackerTest, WhatIsNoHandToEitherSideDoesNotKeepTheOtherOneFromStarting) {
@@ -195,7 +227,7 @@ class ProfileOfAnotherSize : public TwoHandTrackerTest, public ::testing::WithPa
     TwoHandTracker tracker(test::quick_tracker(), {profile}, 1, workers_, test::text_logger(out));
     HandPose pose = test::facing_pose(*right_, 0.5, 0.2);
     for (SE3& T : pose) T.t.x() += kRightX;
-    tracker.hand(0).apply(StartAt{pose});
+    tracker.start_at(0, pose);
     for (int i = 0; i < 71; ++i) {
       const HandEstimates estimates = next(tracker, right_hand_);
       EXPECT_EQ(estimates[0]->status, TrackStatus::tracking);
@@ -297,6 +329,24 @@ TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsO
   const HandEstimates found = next(tracker, hand, nothing(), {});
   EXPECT_EQ(found[kRight]->status, TrackStatus::tracking) << score;
   EXPECT_EQ(found[kLeft]->status, TrackStatus::searching);
+}
+
+TEST_F(StartOfDetectedHand, IsReadAsAHandOfEitherSideWhereTheNetworksCannotTell) {
+  // The networks read a right hand rather as a left one, whose joints are those of the mirrored hand.
+  const auto first_frame = [&](bool either) {
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.6, 0.6, 2));
+    auto joints = std::make_shared<DetectedHand>(*hand->detected);
+    if (either) joints->other_joints = joints->joints;
+    joints->right_log_odds = -0.5;
+    joints->side = Handedness::left;
+    joints->joints = test::detected_hand(*left_, test::facing_pose(*left_, 0.5, 0.1), 3).joints;
+    std::swap(joints->joints[kWristLandmark], joints->joints[landmark_of(2, 3)]);  // they make no left hand
+    hand->detected = joints;
+    TwoHandTracker tracker(test::quick_tracker(), {right_, left_}, 1, workers_);
+    return next(tracker, hand, nothing(), {});
+  };
+  EXPECT_EQ(first_frame(true)[kRight]->status, TrackStatus::tracking);
+  EXPECT_EQ(first_frame(false)[kRight]->status, TrackStatus::searching);
 }
 
 TEST_F(StartOfDetectedHand, IsRefusedAtOnceWhereTheNetworksAreSureOfTheOtherSide) {

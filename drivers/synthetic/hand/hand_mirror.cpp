@@ -6,7 +6,7 @@ namespace barehand::synthetic {
 
 HandMesh mirrored(const HandMesh& mesh) {
   HandMesh other = mesh;
-  other.handedness = mesh.handedness == Handedness::right ? Handedness::left : Handedness::right;
+  other.handedness = opposite(mesh.handedness);
   for (SE3& T : other.T_hand_joint) T = mirrored(T);
   for (auto& v : other.vertices) v.x() = -v.x();
   for (Triangle& t : other.triangles) std::swap(t[1], t[2]);

@@ -6,8 +6,9 @@ namespace barehand {
 
 double Choice::score_with_detection(const HandObservation& observation, const HandProfile& profile,
                                     const RefinedPose& refined) const {
-  const bool confirmed =
-      observation.detected && mean_distance(profile, refined.pose, observation.detected->joints) < params_.agreement;
+  if (!observation.detected) return refined.score;
+  const DetectedJoints& joints = observation.detected->joints_of(profile.handedness);
+  const bool confirmed = mean_distance(profile, refined.pose, joints) < params_.agreement;
   return confirmed ? params_.detection_factor * refined.score : refined.score;
 }
 

@@ -101,9 +101,9 @@ class Choice {
   /// `params` must outlive the object.
   explicit Choice(const ChoiceParams& params) : params_(params) {}
 
-  /// The global score [m] of a pose, reduced by the factor `confirmed` if the detected joints agree with it. Refinement
-  /// and detection make different errors, so a pose on which both agree may explain the frame worse than usual, for
-  /// example because the skin model does not match the hand or the sensor.
+  /// The global score [m] of a pose, reduced by the factor `detection_factor` if the detected joints agree with it.
+  /// Refinement and detection make different errors, so a pose on which both agree may explain the frame worse than
+  /// usual, for example because the skin model does not match the hand or the sensor.
   double score_with_detection(const HandObservation& observation, const HandProfile& profile,
                               const RefinedPose& refined) const;
   /// Whether the challenger replaces `present`; records the decision. `rule`: name of the rule, a static string.

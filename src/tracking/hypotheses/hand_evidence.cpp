@@ -33,8 +33,9 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions.
-  const bool own_side = detected.side == profile.handedness;
-  const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), detected.joints, kScaleDeviation);
+  const DetectedJoints& joints = detected.joints_of(profile.handedness);
+  const bool own_side = detected.may_be(profile.handedness);
+  const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), joints, kScaleDeviation);
   cues.misfit = fit ? fit->cost : INFINITY;
   return cues;
 }
@@ -46,7 +47,8 @@ double log_odds_of_hand(const HandCues& cues) {
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {
   double matched = 0;
   for (const double of_segment : refined.matched) matched += of_segment / kSegmentCount;
-  const double distance = std::max(kLeastDistance, mean_distance(profile, refined.pose, detected.joints));
+  const double distance =
+      std::max(kLeastDistance, mean_distance(profile, refined.pose, detected.joints_of(profile.handedness)));
   return kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore) +
          kOfDistance * std::min(1.0, matched / kAllMatched) * std::log(distance / kReferenceDistance);
 }

@@ -99,7 +99,7 @@ void Proposers::uncross_fingers(const HandObservation& observation, const HandMo
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
 std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
   if (!observation.detected) return std::nullopt;
-  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints);
+  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints_of(hand.profile->handedness));
   if (!fit) return std::nullopt;
   auto best =
       best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);

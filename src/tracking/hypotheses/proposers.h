@@ -38,6 +38,9 @@ class Proposers {
   /// way.
   void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed, std::uint32_t frame);
 
+  /// Call when a track begins.
+  void start_track() { second_opinion_.forget(); }
+
   /// Puts crossed fingers of the followed pose side by side if that explains the frame about as well.
   void uncross_fingers(const HandObservation& observation, const HandModel& hand, Hypothesis& followed) const;
 
