@@ -21,11 +21,12 @@ class ObjectModel {
   /// Whether the model has enough surface to compare points with.
   bool has_surface() const { return surfels_.size() >= 8; }
   /// How badly the points of a frame agree with the model at a pose of it: their mean distance from it, kFar at most,
-  /// plus kFar times the fraction of it that is seen to be empty [m].
+  /// plus kFar times the fraction of its surface that the frame contradicts [m].
   double misfit(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
                 const ObservedSpace& space) const;
-  /// How much contradicts a pose: the share of the surface that this frame sees to be empty space, or the share of
-  /// the points at places that were seen to be empty, whichever is larger.
+  /// How much contradicts a pose: the share of the surface that this frame contradicts, since it sees empty space there
+  /// or measures nothing although the surface faces the camera, or the share of the points at places that were seen to
+  /// be empty, whichever is larger.
   double contradiction(const SE3& T_camera_object, std::span<const SurfacePoint* const> points,
                        const ObservedSpace& space) const;
   /// The predicted pose, shifted so that the mean of the visible surface coincides with the mean of the points.

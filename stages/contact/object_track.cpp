@@ -79,6 +79,13 @@ void ObjectTrack::place(double elapsed, const ObservedSpace& space) {
   find_shape();
 }
 
+void ObjectTrack::rename(std::int32_t id) {
+  state.id = id;
+  round.reset();
+  round_object = nullptr;
+  shape_age_ = 0;
+}
+
 /// Fits a round shape: every few frames to the model, or in each frame to the visible points of an open object, whose
 /// frame moves with them.
 void ObjectTrack::find_shape() {

@@ -28,6 +28,8 @@ struct ObjectTrack {
   std::optional<RoundShape> round;  ///< in its frame, if what is known of it is round
   KnownObjectPtr round_object;      ///< with that shape; null without it
 
+  /// Gives it the id of another track of the same object. Its shape, which carries the id, is fitted anew.
+  void rename(std::int32_t id);
   bool modelled() const { return !open && model.has_surface(); }
 
   /// Predicts where the object is: where it was, or where it was in the palm, whichever agrees better with all points

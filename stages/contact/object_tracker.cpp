@@ -44,6 +44,8 @@ void ObjectTracker::process(std::int64_t utime, const HandEstimates& estimates, 
     return std::abs(utime - track.seen) > (track.state.held || track.touches > 0 ? kForgottenHeld : kForgotten);
   });
 
+  std::ranges::sort(tracks_, {}, [](const ObjectTrack& track) { return track.state.id; });  // merge() renames tracks
+
   // Output the objects that are seen or held, and the hidden points of their models.
   for (const ObjectTrack& track : tracks_) {
     if (track.seen == utime || track.state.held) objects.push_back(track.state);
@@ -176,7 +178,7 @@ void ObjectTracker::merge(std::int64_t utime) {
 
       // Keep the older identifier and forget the model of the track that was not seen.
       ObjectTrack& other = tracks_[owner_[i]];
-      if (track.state.id < other.state.id) std::swap(track.state.id, other.state.id);
+      if (track.state.id < other.state.id) other.rename(track.state.id);
       track = ObjectTrack();
       track.state.id = -1;
       track.seen = utime - kForgotten - 1;
