@@ -1,6 +1,8 @@
 // Delivers the frames that arrive on a live LCM bus.
 #include "drivers/lcm/lcm_live_source.h"
 
+#include <algorithm>
+
 #include "barehand/rgbd_frame_t.hpp"
 #include "core/quote.h"
 #include "drivers/lcm/frame_message.h"
@@ -46,15 +48,26 @@ void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
 }
 
 void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
-  constexpr std::int64_t kReordered = 32;  // if `seq` decreases by more messages than this, the sender was restarted
-  const auto [last, first] = last_seq_.try_emplace(channel, seq);
-  const std::int64_t step = seq - last->second;
-  if (!first && step > 1) counts_.lost += step - 1;
-  if (!first && step < 0 && step > -kReordered) {
-    --counts_.lost;  // the message was only late, but had been counted as lost
-  } else {
-    last->second = seq;
+  // If the number decreases by more messages, or several times in a row, the sender was restarted.
+  constexpr std::int64_t kReordered = 32;
+  constexpr int kLateInARow = 3;
+  Sequence& numbers = sequences_.try_emplace(channel, Sequence{seq}).first->second;
+  const std::int64_t step = seq - numbers.last;
+
+  // A late message may have been counted as lost.
+  if (step < 0 && step > -kReordered && ++numbers.late < kLateInARow) {
+    const int found = numbers.lost > 0 ? 1 : 0;
+    numbers.lost -= found;
+    counts_.lost -= found;
+    return;
   }
+
+  // Count the numbers that were skipped.
+  const std::int64_t skipped = std::max<std::int64_t>(0, step - 1);
+  numbers.lost += skipped;
+  counts_.lost += skipped;
+  numbers.last = seq;
+  numbers.late = 0;
 }
 
 SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
@@ -93,8 +106,9 @@ SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
     return SkippedFrame{std::move(error)};
   }
 
-  // Check the order of the frames of this channel.
+  // Check the order of the frames of this channel, and that they come from one sender.
   choose(packet.channel);
+  tell_of_senders(packet.channel, **frame);
   FrameOrder& order = orders_.try_emplace(packet.channel, StampUnit::microseconds).first->second;
   const auto number = order.number((*frame)->utime, (*frame)->number);
   for (const std::string& warning : order.take_warnings())
@@ -109,6 +123,24 @@ SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
     to_come_.push_back(SkippedFrame{{number.error().what, name_of(packet.channel), number.error().remedy}});
   }
   return take_next();
+}
+
+/// Reports once if several sensors send frames on one channel, since they would be taken for one.
+void LcmLiveSource::tell_of_senders(const std::string& channel, const RgbdFrame& frame) {
+  const int width = frame.camera.width, height = frame.camera.height;
+  const auto [found, is_first] = senders_.try_emplace(channel, Sender{frame.sensor, width, height});
+  Sender& first = found->second;
+  const bool same = first.sensor == frame.sensor && first.width == width && first.height == height;
+  if (is_first || same || !first.alone) return;
+
+  first.alone = false;
+  const auto name = [](const std::string& sensor, int w, int h) {
+    return (sensor.empty() ? "a sensor" : "sensor " + in_quotes(sensor)) + " of " + std::to_string(w) + "x" +
+           std::to_string(h) + " pixels";
+  };
+  to_come_.push_back(SourceNotice{{"frames of " + name(frame.sensor, width, height) + " come on the channel of " +
+                                       name(first.sensor, first.width, first.height),
+                                   name_of(channel), "give every sensor a channel of its own"}});
 }
 
 SourceEvent LcmLiveSource::take_next() {

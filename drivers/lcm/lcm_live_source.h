@@ -52,17 +52,25 @@ class LcmLiveSource : public FrameSource {
     std::string channel;
     std::vector<std::uint8_t> message;
   };
+  /// Who sent the first frame of a channel.
+  struct Sender {
+    std::string sensor;
+    int width = 0, height = 0;  // of its images [px]
+    bool alone = true;          // whether no other one has been reported
+  };
   void receive(const std::string& channel, WireBytes message);
   void count_lost(const std::string& channel, std::int64_t seq);
   SourceEvent decode_packet(const Packet& packet);
   SourceEvent take_next();
   void choose(const std::string& channel);
+  void tell_of_senders(const std::string& channel, const RgbdFrame& frame);
   std::string pattern() const { return options_.channel.empty() ? "*RGBD_FRAME" : options_.channel; }
   std::string name_of(const std::string& channel) const { return "lcm:" + bus_->url() + " " + channel; }
 
   std::shared_ptr<LcmBus> bus_;
   LcmLiveOptions options_;
-  std::map<std::string, FrameOrder> orders_;  ///< per channel; only `next` uses this and the two members below
+  std::map<std::string, FrameOrder> orders_;  ///< per channel; only `next` uses this and the three members below
+  std::map<std::string, Sender> senders_;     ///< per channel
   std::int64_t foreign_number_ = 0;
   std::deque<SourceEvent> to_come_;  ///< events to deliver before another message is decoded
 
@@ -70,7 +78,13 @@ class LcmLiveSource : public FrameSource {
   std::condition_variable arrived_;
   std::deque<Packet> packets_;
   LcmLiveCounts counts_;
-  std::map<std::string, std::int64_t> last_seq_;
+  /// The sequence numbers of a channel.
+  struct Sequence {
+    std::int64_t last;      // newest number
+    std::int64_t lost = 0;  // numbers that did not come
+    int late = 0;           // messages in a row that came after a newer one
+  };
+  std::map<std::string, Sequence> sequences_;
   std::string chosen_;  ///< the only channel that is accepted; "": every channel of the pattern
   std::string other_;   ///< another channel on which frames arrived; "": there is none
   bool told_of_other_ = false;

@@ -1,6 +1,8 @@
 // Delivers the frames of a live OpenNI2 sensor.
 #include "drivers/openni2/openni_live_source.h"
 
+#include <exception>
+
 #include "drivers/openni2/live_reader.h"
 
 namespace barehand {
@@ -16,7 +18,7 @@ OpenNiLiveSource::OpenNiLiveSource(const std::string& wanted, const OpenNiParams
     : name_("openni2" + (wanted.empty() ? "" : ":" + wanted)),
       reader_(std::make_shared<LiveReader>(wanted, params, capacity, clock, std::move(usb))) {
   std::packaged_task<void()> task([reader = reader_] { reader->run(); });
-  finished_ = task.get_future();
+  finished_ = task.get_future().share();
   thread_ = std::thread(std::move(task));
 }
 
@@ -31,6 +33,14 @@ OpenNiLiveSource::~OpenNiLiveSource() {
 
 SourceEvent OpenNiLiveSource::next(std::chrono::milliseconds patience) {
   if (auto event = reader_->output().box().take(patience)) return std::move(*event);
+  if (finished_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return Timeout{};
+
+  // Only an exception, such as one of memory, ends the thread before the destructor stops it.
+  try {
+    finished_.get();
+  } catch (const std::exception& e) {
+    return SourceFailed{{std::string("the thread that reads the sensor ended: ") + e.what(), name_, "start again"}};
+  }
   return Timeout{};
 }
 

@@ -37,7 +37,7 @@ class OpenNiLiveSource : public FrameSource {
  private:
   const std::string name_;
   std::shared_ptr<LiveReader> reader_;  // shared with the thread, which may outlive this object
-  std::future<void> finished_;
+  std::shared_future<void> finished_;
   std::thread thread_;
 };
 

@@ -19,7 +19,10 @@ using SteadyClock = std::chrono::steady_clock;
 /// Opens or creates the file. If another user's process left it, it may be only readable, which is enough to lock it.
 int open_file(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  return descriptor >= 0 || errno != EACCES ? descriptor : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor >= 0 || errno != EACCES) return descriptor;
+  const int readable = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (readable < 0) errno = EACCES;  // the reason why it could not be created
+  return readable;
 }
 
 /// Whether the path still names the opened file, which the previous holder may have removed before it was locked here.

@@ -34,8 +34,12 @@ RowFile::~RowFile() {
 
 Result<void> RowFile::finish() {
   if (!file_) return {};
+  const bool headless = headless_ && !whole_.direct() && !append(header_);
+  const int reason = errno;
   file_.reset();
-  return whole_.finish();
+  if (!headless) return whole_.finish();
+  whole_.discard();
+  return fail(std::string("cannot be written: ") + std::strerror(reason), path_, "free some space");
 }
 
 /// Cuts the file back to the end of the last complete write, if that is possible.

@@ -141,6 +141,16 @@ TEST_F(Table, OnADiskThatIsFullAtFirstTheHeaderComesWithTheRows) {
   EXPECT_EQ(table->frames[0].number, 1);
 }
 
+TEST_F(Table, OnADiskThatStaysFullThereIsNone) {
+  const test::FileSizeLimit full(10);
+  auto writer = TableWriter::create(path_);
+  ASSERT_TRUE(writer);
+  const auto finished = writer->finish();
+  ASSERT_FALSE(finished);
+  EXPECT_THAT(finished.error().message(), HasSubstr("free some space"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
 TEST_F(Table, GoesOnWithTheNextFrameWhenThereIsRoomAgain) {
   auto writer = TableWriter::create(path_);
   ASSERT_TRUE(writer->write(numbered_frame(0)));

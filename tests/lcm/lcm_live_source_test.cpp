@@ -81,6 +81,12 @@ TEST_F(LcmLive, ASenderThatStartsAgainLosesNothing) {
   EXPECT_EQ(source_.counts().lost, 0);
 }
 
+TEST_F(LcmLive, ASenderThatRepeatsAShortClipLosesNothing) {
+  for (const int number : {18, 19, 20, 1, 2, 3, 4, 5, 8}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(9);
+  EXPECT_EQ(source_.counts().lost, 2) << "6 and 7";
+}
+
 TEST_F(LcmLive, WrongTypesAndDamagedMessagesAreSkipped) {
   send("RGBD_FRAME", encode_message(command_t{}));
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));
@@ -165,6 +171,21 @@ TEST_F(LcmLive, StaysWithTheFirstChannelThatBringsAFrameAndTellsOfOthersOnce) {
   }
   EXPECT_EQ(source_.counts().received, 4);
   EXPECT_EQ(source_.counts().replaced, 0);
+}
+
+TEST_F(LcmLive, TellsOnceOfTwoSensorsOnOneChannel) {
+  int told = 0;
+  for (const int number : {1, 2, 3, 4}) {
+    send("RGBD_FRAME", encode_message(encode_frame(test_frame(number, number % 2 ? 40 : 20), {}).value()));
+    SourceEvent event = source_.next(kLong);
+    if (const auto* notice = std::get_if<SourceNotice>(&event)) {
+      ++told;
+      EXPECT_NE(notice->error.what.find("20x30"), std::string::npos) << notice->error.message();
+      event = source_.next(kLong);
+    }
+    EXPECT_TRUE(std::holds_alternative<FramePtr>(event)) << number;
+  }
+  EXPECT_EQ(told, 1);
 }
 
 TEST_F(LcmLive, WhatOtherChannelsLeftInTheInboxIsLeftOut) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "io/lcm/log_names.h"
 
@@ -46,8 +47,14 @@ Result<void> LogRecorder::start(int user) {
   queue_ = std::make_unique<Queue>("record", options_.capacity, Overflow::drop_oldest);
   started_us_ = clock_.steady_us();
   user_ = user;
+  try {
+    thread_ = std::thread([this, log = std::move(*log)] { run(*log); });
+  } catch (const std::system_error& e) {
+    state_.note = std::string("Nothing is recorded: ") + e.what();
+    state_.failed = true;
+    return fail(std::string("no thread can be started: ") + e.what(), options_.folder, "try again later");
+  }
   recording_ = state_.recording = state_.writing = true;
-  thread_ = std::thread([this, log = std::move(*log)] { run(*log); });
   return {};
 }
 
@@ -107,7 +114,12 @@ RecorderState LogRecorder::state() const {
 }
 
 void LogRecorder::run(LcmLogWriter& log) {
-  Result<void> written = write_entries(log);
+  Result<void> written;
+  try {
+    written = write_entries(log);
+  } catch (const std::exception& e) {  // most likely out of memory
+    written = fail(e.what(), log.path());
+  }
   if (!written) end("The recording ended: " + written.error().message(), true);
 
   // Finish the log, which gives it its name. A log without entries is removed instead (by its destructor).

@@ -54,14 +54,13 @@ Result<VideoFile> VideoFile::create(const std::string& path, double fps) {
   if (!file) return tl::unexpected(file.error());
   VideoFile video(*module, path, fps, std::move(*file));
 
-  // The size of the images is not known yet, so a small video is written to find out whether there is an encoder; not
-  // into a pipe, whose reader must not see it.
-  const std::string trial_path = video.file_.direct() ? "/dev/null" : video.file_.draft();
+  // The size of the images is not known yet, so a small video is written to nowhere to find out whether there is an
+  // encoder.
   VideoModule::Message message{};
-  void* trial = (*module)->open(trial_path.c_str(), video_format(path), 64, 64, fps, message);
+  void* trial = (*module)->open("/dev/null", video_format(path), 64, 64, fps, message);
   if (trial && (*module)->close(trial, message)) return video;
   return fail(std::string("no video can be written: ") + message.data(), path,
-              "check the free space; the other formats are .mp4, .mkv, .webm and .avi, or give a folder for images");
+              "the other formats are .mp4, .mkv, .webm and .avi; or give a folder for images");
 }
 
 VideoFile::VideoFile(const VideoModule* module, std::string path, double fps, AtomicFile file)
