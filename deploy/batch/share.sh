@@ -10,11 +10,15 @@ set -u
 index=$1 count=$2 list=$3 out=$4
 shift 4
 here=$(dirname "$(realpath "$0")")
+if ! [[ $index =~ ^[0-9]+$ && $count =~ ^[0-9]+$ ]] || ((10#$index >= 10#$count)); then
+  echo "INDEX is $index and COUNT is $count: give INDEX from 0 to COUNT - 1" >&2
+  exit 2
+fi
 [ -r "$list" ] || { echo "$list: cannot be read" >&2; exit 2; }
 mapfile -t logs <"$list"
 code=0 child=
 trap 'kill -TERM $child 2>/dev/null; wait $child; exit 130' TERM INT
-for ((i = index; i < ${#logs[@]}; i += count)); do
+for ((i = 10#$index; i < ${#logs[@]}; i += 10#$count)); do
   [ -n "${logs[i]}" ] || continue
   "$here/one_log.sh" "${logs[i]}" "$out" "$@" &
   child=$!

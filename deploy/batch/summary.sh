@@ -15,9 +15,11 @@ for log in "${logs[@]}"; do
   [ -n "$log" ] || continue
   all=$((all + 1))
   name=$(basename "$log" .lcmlog)
-  [ -d "$out/$name" ] && continue
   why="stopped, or not started yet"
-  if [ -f "$out/$name.failed.txt" ]; then
+  if [ -d "$out/$name" ]; then
+    [[ "$(cat "$out/$name/command") " == "$(printf '%q ' "$(realpath -m "$log")")"* ]] && continue
+    why="$out/$name is of another log of this name"
+  elif [ -f "$out/$name.failed.txt" ]; then
     why=$(grep -E '^(error|barehand track)' "$out/$name.failed.txt" | tail -n 1)
     why=${why:-$(tail -n 1 "$out/$name.failed.txt")}
   fi

@@ -2,6 +2,8 @@
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
@@ -22,6 +24,20 @@
 #include "app/view/view_command.h"
 
 namespace barehand {
+namespace {
+
+/// Refuses empty values: they come of variables that a script does not set, and would mean the root folder or nothing.
+void refuse_empty_values(CLI::App& app) {
+  constexpr std::array kMayBeEmpty = {"--source", "--prefix", "--lcm-url", "--channel"};
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_expected_min() == 0 || std::ranges::count(kMayBeEmpty, option->get_name()) > 0) continue;
+      option->check(
+          [](const std::string& value) { return value.empty() ? "is empty: give a value, or leave it out" : ""; });
+    }
+}
+
+}  // namespace
 
 int run_program(int argc, char** argv) {
   prepare_standard_streams();
@@ -51,6 +67,8 @@ int run_program(int argc, char** argv) {
   add_view_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_doctor_command(app, exit_code);
+
+  refuse_empty_values(app);
 
   // Run the command. No exception may leave the program without a message.
   try {

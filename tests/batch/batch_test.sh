@@ -71,6 +71,8 @@ check "old failures are forgotten" test -z "$(ls out/*.failed.txt 2>/dev/null)"
 check "what is finished is not tracked again" exits 0 env BAREHAND=false "$batch/one_log.sh" log1.lcmlog out "${start[@]}"
 check "other options need another folder" exits 2 "$batch/one_log.sh" log1.lcmlog out
 check "another log of this name needs another folder" exits 2 "$batch/one_log.sh" other/log1.lcmlog out "${start[@]}"
+echo other/log1.lcmlog >other.txt
+check "the summary does not count it" exits 1 "$batch/summary.sh" other.txt out
 
 # Long enough to be stopped in the middle.
 simulate long.lcmlog --frames 60
@@ -113,5 +115,8 @@ check "the second element" exits 0 element 1
 check "has the rest" test "$(finished array)" = "log1 log2 whole"
 head -c 100 /dev/zero >log1.lcmlog
 check "an element whose log is broken fails" exits 2 "$batch/share.sh" 0 2 three.txt fresh "${start[@]}"
+for wrong in "2 2" "0 0" "5 1" "x 2"; do
+  check "no element $wrong" exits 2 "$batch/share.sh" $wrong three.txt fresh "${start[@]}"
+done
 check "and goes on" test "$(finished fresh)" = "whole"
 exit $failed

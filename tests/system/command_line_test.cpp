@@ -48,6 +48,27 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(barehand({"experiment", "juggling", "--out", "/nonexistent"}).exit_code, 2);
   EXPECT_EQ(barehand({"experiment", "fist"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--threads", "two"}).exit_code, 2);
+  EXPECT_EQ(barehand({"track", "--source", "lcm", "--start", "3"}).exit_code, 2) << "systemd would start it for ever";
+  EXPECT_EQ(barehand({"track", "--source", "lcm", "--lcm-url", "foo"}).exit_code, 2);
+  EXPECT_EQ(barehand({"bench", "--source", "lcm"}).exit_code, 2);
+}
+
+TEST(CommandLine, EmptyNamesAreNotTakenForNone) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"convert", "/nonexistent", ""},
+                                                    {"record", "--source", "sim:fist", "--out", ""},
+                                                    {"track", "--source", "sim:fist", "--no-publish", "--result", ""},
+                                                    {"view", ""},
+                                                    {"calibrate", "--out", ""}}) {
+    const Outcome outcome = barehand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments[0];
+    EXPECT_THAT(outcome.output, HasSubstr("is empty")) << arguments[0];
+  }
+}
+
+TEST(CommandLine, LimitsOfRecordingsArePositive) {
+  for (const std::string option : {"--quota=-1", "--quota=0", "--max-size=-1", "--max-age=-5s", "--max-age=0s"})
+    EXPECT_EQ(barehand({"record", "--source", "sim:fist", "--out", "/nonexistent/a.lcmlog", option}).exit_code, 2)
+        << option;
 }
 
 TEST(Bench, MeasuresAndWritesFigures) {

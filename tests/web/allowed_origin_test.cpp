@@ -42,5 +42,18 @@ TEST(AllowedOrigin, IsWhoIsInvited) {
   EXPECT_FALSE(is_allowed_origin("https://example.org.evil.org", "localhost:8765", allowed_origins));
 }
 
+TEST(AllowedOrigin, MayBeWrittenInOtherWays) {
+  for (const char* invited : {"HTTPS://Example.org", "https://example.org/", "https://example.org:443"}) {
+    EXPECT_EQ(wrong_origin(invited), "");
+    EXPECT_TRUE(is_allowed_origin("https://example.org", "localhost:8765", std::vector<std::string>{invited}))
+        << invited;
+    EXPECT_FALSE(is_allowed_origin("https://example.org:8000", "localhost:8765", std::vector<std::string>{invited}));
+    EXPECT_FALSE(is_allowed_origin("http://example.org", "localhost:8765", std::vector<std::string>{invited}));
+  }
+  EXPECT_EQ(wrong_origin("file://"), "");
+  for (const char* none : {"example.org", "*", "https://example.org/page", "://example.org"})
+    EXPECT_NE(wrong_origin(none), "") << none;
+}
+
 }  // namespace
 }  // namespace barehand

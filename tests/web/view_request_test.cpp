@@ -52,12 +52,33 @@ TEST(ViewRequest, ARecordingGoesWhereTheProgramSays) {
 }
 
 TEST(ViewRequest, RefusesWhatItDoesNotKnow) {
-  for (const char* text :
-       {"", "{", "[]", "7", "null", "\"want\"", "{}", R"({"type": 7})", R"({"type": "fly"})", "\xff\xfe",
-        R"({"type": "want", "cloud": true})", R"({"type": "want", "picture": "infrared"})",
-        R"({"type": "want", "rate": 0})", R"({"type": "want", "rate": 1e400})", R"({"type": "want", "rate": "fast"})",
-        R"({"type": "want", "window": -1})", R"({"type": "want", "window": 101})",
-        R"({"type": "seek", "value": 1e30})"})
+  for (const char* text : {"",
+                           "{",
+                           "[]",
+                           "7",
+                           "null",
+                           "\"want\"",
+                           "{}",
+                           R"({"type": 7})",
+                           R"({"type": "fly"})",
+                           "\xff\xfe",
+                           R"({"type": "want", "cloud": true})",
+                           R"({"type": "want", "picture": "infrared"})",
+                           R"({"type": "want", "rate": 0})",
+                           R"({"type": "want", "rate": 1e400})",
+                           R"({"type": "want", "rate": "fast"})",
+                           R"({"type": "want", "window": -1})",
+                           R"({"type": "want", "window": 101})",
+                           R"({"type": "want", "window": 0.5})",
+                           R"({"type": "seek", "value": 1e30})",
+                           R"({"type": "seek"})",
+                           R"({"type": "seek", "value": -1})",
+                           R"({"type": "step"})",
+                           R"({"type": "speed"})",
+                           R"({"type": "speed", "value": 0})",
+                           R"({"type": "speed", "value": 1000})",
+                           R"({"type": "lost", "value": 7})",
+                           R"({"type": "play", "value": 1})"})
     EXPECT_FALSE(parse_view_request(text)) << text;
 }
 

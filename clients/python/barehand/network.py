@@ -32,8 +32,10 @@ def parse_url(url=None):
         raise Error(f"is no address of an LCM network: {error}", url, example) from None
     if parts.scheme != "udpm":
         raise Error("the Python client knows networks (udpm), live pages (ws) and logs only", url, example)
-    if not multicast or not 0 <= ttl <= 255 or buffer <= 0:
+    if not multicast or not 0 <= ttl <= 255:
         raise Error("is no multicast address with a ttl of 0 to 255", url, example)
+    if not 0 < buffer < 2**31:
+        raise Error("has a receive buffer that is not between 0 and 2 GiB", url, example)
     return group, port, ttl, buffer
 
 

@@ -21,6 +21,7 @@ def parse_url(url):
     example = "URLs look like ws://localhost:8765"
     try:
         parts = urlsplit(url)
+        (parts.hostname or "").encode("idna")  # as the socket does; an impossible name is a ValueError
         host, port = parts.hostname, parts.port or DEFAULT_PORT
     except ValueError as error:
         raise Error(f"is no address of a live page: {error}", url, example) from None

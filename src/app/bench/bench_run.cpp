@@ -72,6 +72,7 @@ Result<Input> read_input(const BenchOptions& options) {
   request.spec = options.source;
   auto source = open_source(request, clock);
   if (!source) return tl::unexpected(source.error());
+  if (source->source->live()) return fail("is a live source", options.source, "give folder:DIR, log:FILE or sim:NAME");
   auto hands = choose_hands(options.hands, *source);
   if (!hands) return tl::unexpected(hands.error());
   auto objects = load_objects(options.objects, *make_logger());

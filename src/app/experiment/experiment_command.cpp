@@ -67,7 +67,8 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   command->add_option("--init", a->init, "first pose: truth, or auto (found in the image)")
       ->check(CLI::IsMember({"truth", "auto"}))
       ->capture_default_str();
-  command->add_option("--frames", o.frames, "maximum number of frames per sequence")->check(CLI::PositiveNumber);
+  command->add_option("--frames", o.frames, "maximum number of frames per sequence")
+      ->check(CLI::Range(1, 1'000'000'000));
   command->add_option("--threads", o.threads, "cores to use; results do not depend on it")->capture_default_str();
   command->footer("Ctrl-C ends the run; what was finished until then stays.");
 

@@ -44,9 +44,12 @@ int listen(const ListenOptions& options) {
   while (!stop && !output_is_closed() && !listener.broken() && (options.count == 0 || seen < options.count)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  if (listener.broken()) std::cerr << "barehand listen: the LCM connection broke\n";
   if (output_is_closed()) return kExitBrokenPipe;
-  if (listener.broken()) return kExitFailure;
+  if (listener.broken() && options.url.starts_with("file://")) return printed(kExitOk);  // the log has ended
+  if (listener.broken()) {
+    std::cerr << "barehand listen: the LCM connection broke\n";
+    return kExitFailure;
+  }
   return printed(interrupt.signal() == SIGINT ? kExitInterrupted : kExitOk);
 }
 
@@ -58,7 +61,7 @@ void add_listen_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("listen", "Print what trackers send on LCM: hands, gloves, grasps, contacts and objects");
   command->add_option("--lcm-url", options->url, "LCM network");
   command->add_option("--prefix", options->prefix, "channel prefix of the tracker");
-  command->add_option("--count", options->count, "stop after this many messages")->check(CLI::PositiveNumber);
+  command->add_option("--count", options->count, "stop after this many messages")->check(CLI::Range(1, 1'000'000'000));
   command->callback([options, &exit_code] { exit_code = listen(*options); });
 }
 

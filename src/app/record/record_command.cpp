@@ -2,6 +2,7 @@
 #include "app/record/record_command.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +10,13 @@
 #include "app/record/run_copy.h"
 
 namespace barehand {
+
+namespace {
+
+constexpr std::int64_t kLargestSize = std::int64_t{1} << 62;  // [bytes]
+constexpr double kLongestAge = 1e9;                           // [s]
+
+}  // namespace
 
 void add_record_command(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<CopyRequest>();
@@ -26,13 +34,16 @@ void add_record_command(CLI::App& app, int& exit_code) {
 
   // Add options for the limits at which a recording continues in a new log.
   record->add_option("--max-size", request->max_size, "continue in a new log at this size, such as 2GB")
-      ->transform(CLI::AsSizeValue(true));
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(std::int64_t{1}, kLargestSize));
   record->add_option("--max-age", request->max_age, "continue in a new log after this time, such as 10min or 1h")
       ->transform(
-          CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}));
+          CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}))
+      ->check(CLI::Range(1.0, kLongestAge));
   record
       ->add_option("--quota", request->quota, "limit of all these logs together, such as 100GB; the oldest are removed")
-      ->transform(CLI::AsSizeValue(true));
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(std::int64_t{1}, kLargestSize));
 
   // Add the options that this command shares with convert.
   add_copy_options(*record, *request);

@@ -153,6 +153,9 @@ int run_copy(const CopyRequest& request, const std::string& command) {
   if (const auto good = check_ending(named, is_file_path(request.out), kFileEndings); !good)
     return refuse(good.error());
 
+  if (request.colour == "raw" && !is_log_path(request.out))
+    return refuse({"raw is for LCM logs only", "--colour raw with " + request.out, "take png, which is lossless, too"});
+
   // Take the sensor's settings from the configuration; what the command line says takes precedence.
   SourceRequest input = request.source;
   if (!request.config.empty()) {
@@ -168,7 +171,7 @@ int run_copy(const CopyRequest& request, const std::string& command) {
 
   // Open the source.
   auto source = open_source(input, clock);
-  if (!source && input.spec == "lcm") {  // not a usage error, since the network may become available later
+  if (!source && needs_network(input)) {  // not a usage error
     refuse(source.error());
     return kExitFailure;
   }

@@ -16,6 +16,7 @@
 #include "app/track/track_run.h"
 #include "core/format.h"
 #include "core/parallel/parallel.h"
+#include "io/atomic_file.h"
 #include "io/file_ending.h"
 #include "io/obj_file.h"
 #include "stages/contact/scanned_mesh.h"
@@ -62,9 +63,10 @@ class ScanAdvice {
   std::chrono::steady_clock::time_point given_ = std::chrono::steady_clock::now();
 };
 
-Result<void> check_name(const std::string& path) {
-  if (lower_case_ending(path) == ".obj") return {};
-  return fail("does not end in .obj", "--out " + path, "meshes are written as Wavefront OBJ files");
+Result<void> check_output(const std::string& path) {
+  if (lower_case_ending(path) != ".obj")
+    return fail("does not end in .obj", "--out " + path, "meshes are written as Wavefront OBJ files");
+  return AtomicFile::create(path, true).map([](const AtomicFile&) {});
 }
 
 /// Makes a mesh of what was seen, and saves it. Returns the exit code.
@@ -104,7 +106,7 @@ int run_scan(const ScanOptions& o) {
   if (!config) return failed("scan-object", config.error(), kExitUsage);
   config->contact.enabled = true;
   config->preprocess.margin = std::max(config->preprocess.margin, kScanMargin);
-  if (const auto possible = check_name(o.out); !possible) return failed("scan-object", possible.error(), kExitUsage);
+  if (const auto possible = check_output(o.out); !possible) return failed("scan-object", possible.error(), kExitUsage);
 
   // Track, and collect the objects.
   ObjectScan scan;

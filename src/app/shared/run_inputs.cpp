@@ -29,6 +29,9 @@ Result<Config> read_configuration(const std::string& name) {
     if (config->preprocess.min_depth >= config->preprocess.max_depth)
       return Result<Config>(fail("nothing lies between min_depth and max_depth", path + ": preprocess",
                                  "give a max_depth that is larger than min_depth"));
+    if (config->contact.touch_distance > config->contact.near_distance)
+      return Result<Config>(fail("touch_distance is larger than near_distance", path + ": contact",
+                                 "give a near_distance that is at least touch_distance"));
     const auto world = world_from(config->world, path + ": world.T_world_camera");
     return world ? config : tl::unexpected(world.error());
   });

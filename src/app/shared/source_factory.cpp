@@ -161,6 +161,9 @@ Result<OpenSource> open_simulator(const std::string& text, const Clock& clock) {
   return open;
 }
 
+/// Whether options are given that only recordings have.
+bool chooses_frames(const SourceRequest& request) { return request.start || request.step != 1; }
+
 Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
   // Split the description into the kind of the source and its argument.
   const auto colon = request.spec.find(':');
@@ -171,7 +174,7 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
   if (request.step == 0)
     return fail("a step of 0 would repeat one frame without end", "--step", "give 1, 2, ... or -1, -2, ...");
   const bool recording = kind == "folder" || kind == "log" || (kind == "openni2" && is_oni_file(argument));
-  if (!recording && (request.start || request.step != 1))
+  if (!recording && chooses_frames(request))
     return fail("--start and --step are for recordings", request.spec, "leave them out");
 
   // Open the source by its kind.
@@ -186,6 +189,10 @@ Result<OpenSource> open_kind(const SourceRequest& request, const Clock& clock) {
 }
 
 }  // namespace
+
+bool needs_network(const SourceRequest& request) {
+  return request.spec == "lcm" && !chooses_frames(request) && LcmBus::is_network(request.lcm_url);
+}
 
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock) {
   auto open = open_kind(request, clock);

@@ -45,6 +45,8 @@ struct OpenSource {
   std::string if_silent;               ///< what the user should check if no frames come, as a sentence
 };
 
+/// Whether a failure to open this source may be one of the network, which may become available later.
+bool needs_network(const SourceRequest& request);
 /// Opens a source. Errors: an unknown kind of source, and those of its driver (no such file, no frames, no multicast
 /// route, ...). `clock` must outlive the source; it paces a live simulator.
 Result<OpenSource> open_source(const SourceRequest& request, const Clock& clock);

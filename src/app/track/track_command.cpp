@@ -8,6 +8,7 @@
 #include "app/track/track_options.h"
 #include "app/track/track_run.h"
 #include "core/parallel/parallel.h"
+#include "io/web/allowed_origin.h"
 
 namespace barehand {
 
@@ -43,8 +44,12 @@ void add_view_options(CLI::App& command, TrackOptions& o) {
       ->type_name("[PORT]");
 
   // Add options for what the page may do.
-  command.add_option("--view-origin", o.view_origins,
-                     "origin of another web page that may connect, such as https://example.org");
+  command
+      .add_option("--view-origin", o.view_origins,
+                  "origin of another web page that may connect, such as https://example.org")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(wrong_origin);
   command.add_option(
       "--view-record", o.view_record,
       "folder into which the page's button records, as LCM logs named by their time; default: it records "
@@ -74,7 +79,7 @@ void add_track_command(CLI::App& app, int& exit_code) {
       ->needs("--overlay");
   track->add_option("--save-hand", o.save_hand, "write the hand profile as fitted to the person (hand.json)");
   track->add_option("--overlay-every", o.overlay_every, "draw every N-th frame only")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
   add_overwrite_option(*track, o.overwrite);
 

@@ -165,7 +165,7 @@ Step TrackRun::open_input() {
   request.depth = {config_.preprocess.min_depth, config_.preprocess.max_depth};
 
   // Open it. If it needs the network, wait until the network is available.
-  const bool from_network = options_.source == "lcm";
+  const bool from_network = needs_network(request);
   auto input = connect([&] { return open_source(request, clock_); }, from_network);
   if (!input) return from_network ? tl::unexpected(no_network(input.error())) : usage(input.error());
   input_ = std::move(*input);

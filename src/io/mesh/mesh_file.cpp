@@ -121,7 +121,8 @@ Result<LoadedMesh> load_mesh(const std::string& path, LengthUnit unit) {
   // Check the file itself, since assimp does not explain these errors.
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    return fail("there is no such file", path, "give the mesh of the object (OBJ, PLY, STL or glTF)");
+    return fail(std::filesystem::exists(path, error) ? "is no file" : "there is no such file", path,
+                "give the mesh of the object (OBJ, PLY, STL or glTF)");
   if (!std::ifstream(path)) return fail("cannot be read", path, "check its permissions");
   if (std::filesystem::file_size(path, error) == 0) return fail("is empty", path, "export the object's mesh again");
 

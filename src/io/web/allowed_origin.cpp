@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstring>
+#include <utility>
+
+#include "core/quote.h"
 
 namespace barehand {
 namespace {
@@ -35,7 +39,23 @@ std::string machine_name() {
   return lower(name.data());
 }
 
+/// An origin as browsers write it: in lower case, without a slash at its end, and without the port that its scheme has.
+std::string plain(std::string_view origin) {
+  std::string out = lower(origin);
+  if (out.ends_with('/') && !out.ends_with("//")) out.pop_back();
+  for (const auto& [scheme, port] : {std::pair("http://", ":80"), std::pair("https://", ":443")})
+    if (out.starts_with(scheme) && out.ends_with(port)) out.resize(out.size() - std::strlen(port));
+  return out;
+}
+
 }  // namespace
+
+std::string wrong_origin(const std::string& text) {
+  const auto scheme = text.find("://");
+  const bool right =
+      scheme != std::string::npos && scheme > 0 && plain(text).find('/', scheme + 3) == std::string::npos;
+  return right ? "" : in_quotes(text) + " is no origin: give one such as https://example.org or http://localhost:8000";
+}
 
 bool is_own_host(std::string_view host) {
   const std::string name = name_of(host);
@@ -47,7 +67,7 @@ bool is_own_host(std::string_view host) {
 
 bool is_allowed_origin(std::string_view origin, std::string_view host, std::span<const std::string> allowed_origins) {
   if (origin.empty() || lower(origin) == "http://" + lower(host)) return true;
-  return std::ranges::find(allowed_origins, origin) != allowed_origins.end();
+  return std::ranges::find(allowed_origins, plain(origin), plain) != allowed_origins.end();
 }
 
 }  // namespace barehand

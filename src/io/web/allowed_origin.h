@@ -11,6 +11,9 @@ namespace barehand {
 /// the attacker could read what is served here (DNS rebinding).
 bool is_own_host(std::string_view host);
 
+/// Why a text is no origin, that is SCHEME://HOST or SCHEME://HOST:PORT or "file://"; "" if it is one.
+std::string wrong_origin(const std::string& text);
+
 /// Whether a page from `origin`, the header Origin, may use what is served as `host`. Allowed are the page that this
 /// server delivers, pages from an origin in `allowed_origins` ("https://example.org"), and an empty origin: browsers
 /// send the header, so the request does not come from a foreign page.

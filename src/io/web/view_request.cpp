@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -62,6 +63,7 @@ Result<ViewRequest> settings_of(const Object& message) {
   // Read how many frames may be unacknowledged.
   const auto window = message.number_or("window", settings.window, 0, 100);
   if (!window) return tl::unexpected(window.error());
+  if (*window != std::floor(*window)) return fail("window is no whole number", kWhere, "give 0 to 100");
   settings.window = static_cast<int>(*window);
   return settings;
 }
@@ -85,6 +87,21 @@ std::optional<PlayerCommand::Kind> player_kind(const std::string& type) {
   return std::nullopt;
 }
 
+Result<ViewRequest> player_command(const Object& message, PlayerCommand::Kind kind) {
+  using Kind = PlayerCommand::Kind;
+  if (kind == Kind::play || kind == Kind::pause)
+    return check_keys(message, {}).map([&]() -> ViewRequest { return PlayerCommand{kind, 0}; });
+
+  // The other commands need a number: a frame, a number of frames, a direction or a factor.
+  const double most = kind == Kind::speed ? 100 : kind == Kind::lost ? 1 : 1e9;
+  const double least = kind == Kind::speed ? 0.01 : kind == Kind::seek ? 0 : -most;
+  return check_keys(message, {"value"})
+      .and_then([&] { return message.number("value", least, most); })
+      .map([&](double value) -> ViewRequest {
+        return PlayerCommand{kind, value};
+      });
+}
+
 Result<ViewRequest> request_of(const Object& message) {
   const auto type = message.text("type");
   if (!type) return tl::unexpected(type.error());
@@ -93,11 +110,7 @@ Result<ViewRequest> request_of(const Object& message) {
   if (*type == "record") return record_of(message);
   const auto kind = player_kind(*type);
   if (!kind) return fail("unknown type", kWhere, "give want, ack, record, play, pause, seek, step, speed or lost");
-  return check_keys(message, {"value"})
-      .and_then([&] { return message.number_or("value", 0, -1e9, 1e9); })
-      .map([&](double value) -> ViewRequest {
-        return PlayerCommand{*kind, value};
-      });
+  return player_command(message, *kind);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ struct WebConnection {
 namespace {
 
 constexpr const char* kForeign =
-    "Requests for other hosts and from pages of other origins are refused. --view-origin invites a page.";
+    "Requests for other hosts and from pages of other origins are refused. "
+    "The option --view-origin of track, or --origin of view, invites a page.";
 
 constexpr std::size_t kLongestMessage = 64 << 10;  // maximum size of a client's message [bytes]
 constexpr std::size_t kLongestKey = 24;            // size of a Sec-WebSocket-Key: 16 bytes in Base64 (RFC 6455)
