@@ -96,7 +96,7 @@ TEST_F(MeshFile, NamesTheUnitThatAFileProbablyHas) {
 
 TEST_F(MeshFile, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(refusal(folder_.path() + "/none.obj"), HasSubstr("no such file"));
-  EXPECT_THAT(refusal(folder_.path()), HasSubstr("no such file"));
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("is no file"));
   EXPECT_THAT(refusal(write("empty.obj", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(write("noise.ply", "this is no mesh")), HasSubstr("cannot be read as a mesh"));
 }
