@@ -45,8 +45,10 @@ void PalmHistory::examined(const Eigen::Vector3d& palm, double probability, cons
   place->last_palm = place->last_examined = search_;
   // Of what is no hand, the networks mostly do not tell the side.
   place->unlikely = !found || std::abs(found->right_log_odds) < kToldSide;
-  place->unlikely_count =
-      place->unlikely ? std::min(kSkipAfter * kMaxSkipped, place->unlikely_count + 1) : place->unlikely_count / 2;
+  // A place that was read as both sides has been examined twice.
+  const int examinations = found && found->other_joints ? 2 : 1;
+  place->unlikely_count = place->unlikely ? std::min(kSkipAfter * kMaxSkipped, place->unlikely_count + examinations)
+                                          : place->unlikely_count / 2;
 }
 
 }  // namespace barehand

@@ -49,6 +49,19 @@ TEST_F(PalmHistoryTest, WhatStaysUnlikelyIsExaminedEverMoreRarely) {
   EXPECT_EQ(std::ranges::count(later, '1'), 4) << later;
 }
 
+TEST_F(PalmHistoryTest, WhatIsReadAsBothSidesWaitsTwiceAsSoon) {
+  DetectedHand hand;
+  hand.other_joints = hand.joints;
+  std::string examined;
+  for (int i = 0; i < 7; ++i) {
+    places_.begin_search();
+    const bool skipped = places_.may_skip({0, 0, 0.7}, 0.6);
+    if (!skipped) places_.examined({0, 0, 0.7}, 0.6, &hand);
+    examined += skipped ? '0' : '1';
+  }
+  EXPECT_EQ(examined, "1110101");
+}
+
 TEST_F(PalmHistoryTest, AClearSideEndsTheWaiting) {
   EXPECT_EQ(frames(7, 0.5), "1111110");
   EXPECT_EQ(frames(4, 4), "1111");
