@@ -152,7 +152,7 @@ int view_logs(const ViewOptions& options, const WebAddress& address, Shown shown
 
 int view_network(const ViewOptions& options, const WebAddress& address, Shown shown, const std::atomic<bool>& stop) {
   auto bus = LcmBus::open(options.lcm_url);
-  if (!bus) return failed("view", bus.error(), kExitFailure);
+  if (!bus) return failed("view", bus.error(), LcmBus::is_network(options.lcm_url) ? kExitFailure : kExitUsage);
   const SystemClock clock;
   constexpr std::size_t kWaiting = 120;  // messages that may wait for the recorder; a frame has about four
   std::unique_ptr<LogRecorder> recorder;
