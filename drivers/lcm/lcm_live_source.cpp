@@ -128,10 +128,11 @@ SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
 /// Reports once if several sensors send frames on one channel, since they would be taken for one.
 void LcmLiveSource::tell_of_senders(const std::string& channel, const RgbdFrame& frame) {
   const int width = frame.camera.width, height = frame.camera.height;
-  const auto [found, is_first] = senders_.try_emplace(channel, Sender{frame.sensor, width, height});
+  const auto [found, is_first] = senders_.try_emplace(channel);
   Sender& first = found->second;
+  if (is_first) first = {frame.sensor, width, height};
   const bool same = first.sensor == frame.sensor && first.width == width && first.height == height;
-  if (is_first || same || !first.alone) return;
+  if (same || !first.alone) return;
 
   first.alone = false;
   const auto name = [](const std::string& sensor, int w, int h) {

@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "core/parallel/is_ready.h"
 #include "drivers/openni2/live_reader.h"
 
 namespace barehand {
@@ -33,7 +34,7 @@ OpenNiLiveSource::~OpenNiLiveSource() {
 
 SourceEvent OpenNiLiveSource::next(std::chrono::milliseconds patience) {
   if (auto event = reader_->output().box().take(patience)) return std::move(*event);
-  if (finished_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return Timeout{};
+  if (!is_ready(finished_)) return Timeout{};
 
   // Only an exception, such as one of memory, ends the thread before the destructor stops it.
   try {

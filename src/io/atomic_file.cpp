@@ -172,6 +172,11 @@ Result<void> write_file_atomically(const std::string& path, std::string_view byt
   return whole->finish();
 }
 
+Result<void> check_writable(const std::string& path) {
+  const auto file = AtomicFile::create(path, true);
+  return file ? Result<void>() : tl::unexpected(file.error());
+}
+
 std::string finished_name(const std::string& path) {
   const auto at = path.rfind(kUnfinished);
   if (at == std::string::npos || at == 0 || path[at - 1] == '/') return "";

@@ -50,6 +50,10 @@ class AtomicFile {
   int lock_ = -1;        ///< descriptor that holds the draft's lock, which shows that a program is writing it
 };
 
+/// Checks that `path` can be written, before there is something to save. The errors are those of AtomicFile::create,
+/// but a file that exists is none.
+Result<void> check_writable(const std::string& path);
+
 /// Writes a whole file, replacing an existing one. A full disk is an error and leaves the existing file as it was.
 Result<void> write_file_atomically(const std::string& path, std::string_view bytes);
 

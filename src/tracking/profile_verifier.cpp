@@ -163,9 +163,7 @@ std::optional<double> ProfileVerifier::other_size_in_view(const HandObservation&
   if (profile_.origin == ProfileOrigin::mean || !observation.detected || size_checks_ >= kSizeChecks)
     return std::nullopt;
   ++size_checks_;
-  const DetectedJoints& joints = observation.detected->joints_of(profile_.handedness);
-  const bool own_side = observation.detected->may_be(profile_.handedness);
-  const auto seen = fit_size_to_joints(own_side ? profile_ : mirrored(profile_), joints, kAnySize);
+  const auto seen = fit_size_to_hand(profile_, *observation.detected, kAnySize);
   if (!seen || std::abs(std::log(seen->scale)) < kOtherSize) return std::nullopt;
   if (confirmed_size_ && std::abs(std::log(seen->scale / *confirmed_size_)) < kSameSize) return confirmed_size_;
   return verified_size(observation, score, std::log(seen->scale));

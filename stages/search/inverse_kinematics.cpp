@@ -270,4 +270,10 @@ std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const
   return fit(profile, joints, true, deviation);
 }
 
+std::optional<KinematicFit> fit_size_to_hand(const HandProfile& profile, const DetectedHand& detected,
+                                             double deviation) {
+  const DetectedJoints& joints = detected.joints_of(profile.handedness);
+  return fit_size_to_joints(detected.may_be(profile.handedness) ? profile : mirrored(profile), joints, deviation);
+}
+
 }  // namespace barehand

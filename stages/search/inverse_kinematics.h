@@ -29,6 +29,11 @@ std::optional<KinematicFit> fit_to_joints(const HandProfile& profile, const Dete
 std::optional<KinematicFit> fit_size_to_joints(const HandProfile& profile, const DetectedJoints& joints,
                                                double deviation);
 
+/// Fits the size of a detected hand like fit_size_to_joints(). `profile` may be of either side: it is mirrored if there
+/// are no joints of its own side.
+std::optional<KinematicFit> fit_size_to_hand(const HandProfile& profile, const DetectedHand& detected,
+                                             double deviation);
+
 /// Mean distance of the joints of a pose from detected ones [m].
 double mean_distance(const HandProfile& profile, const HandPose& pose, const DetectedJoints& joints);
 

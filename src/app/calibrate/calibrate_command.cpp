@@ -19,6 +19,7 @@
 #include "app/track/track_run.h"
 #include "core/format.h"
 #include "core/parallel/parallel.h"
+#include "io/atomic_file.h"
 #include "io/hand/hand_json.h"
 #include "io/place.h"
 #include "math/angles.h"
@@ -195,8 +196,7 @@ int run(const CalibrateOptions& o) {
   if (!hands) return failed("calibrate", hands.error(), kExitUsage);
   if (hands->size() != 1)
     return failed("calibrate", {"names two hands", "--hand " + o.hand, "scan one hand after the other"}, kExitUsage);
-  if (const auto possible = check_profile_path(o.out); !possible)
-    return failed("calibrate", possible.error(), kExitUsage);
+  if (const auto possible = check_writable(o.out); !possible) return failed("calibrate", possible.error(), kExitUsage);
 
   // Track, and collect what the user shows.
   const bool joints_stay = hands->front().profile->origin == ProfileOrigin::measured;

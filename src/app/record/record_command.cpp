@@ -10,7 +10,6 @@
 #include "app/record/run_copy.h"
 
 namespace barehand {
-
 namespace {
 
 constexpr std::int64_t kLargestSize = std::int64_t{1} << 62;  // [bytes]

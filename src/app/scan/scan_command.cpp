@@ -66,7 +66,7 @@ class ScanAdvice {
 Result<void> check_output(const std::string& path) {
   if (lower_case_ending(path) != ".obj")
     return fail("does not end in .obj", "--out " + path, "meshes are written as Wavefront OBJ files");
-  return AtomicFile::create(path, true).map([](const AtomicFile&) {});
+  return check_writable(path);
 }
 
 /// Makes a mesh of what was seen, and saves it. Returns the exit code.

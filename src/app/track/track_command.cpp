@@ -34,6 +34,13 @@ void add_input_options(CLI::App& command, TrackOptions& o) {
   command.add_option("--init", o.init, "first pose: auto (found in the image) or pose.json")->capture_default_str();
 }
 
+void add_origin_option(CLI::App& command, const std::string& name, std::vector<std::string>& origins) {
+  command.add_option(name, origins, "origin of another web page that may connect, such as https://example.org")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(wrong_origin);
+}
+
 void add_view_options(CLI::App& command, TrackOptions& o) {
   command
       .add_option("--view", o.view,
@@ -44,12 +51,7 @@ void add_view_options(CLI::App& command, TrackOptions& o) {
       ->type_name("[PORT]");
 
   // Add options for what the page may do.
-  command
-      .add_option("--view-origin", o.view_origins,
-                  "origin of another web page that may connect, such as https://example.org")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(wrong_origin);
+  add_origin_option(command, "--view-origin", o.view_origins);
   command.add_option(
       "--view-record", o.view_record,
       "folder into which the page's button records, as LCM logs named by their time; default: it records "

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace CLI {
 class App;
 }
@@ -10,6 +13,9 @@ struct TrackOptions;
 
 /// Adds the options that say which frames are tracked, how, and which hands: from --source to --init.
 void add_input_options(CLI::App& command, TrackOptions& options);
+
+/// Adds the option `name`, which may be repeated: the origins of other web pages that may connect.
+void add_origin_option(CLI::App& command, const std::string& name, std::vector<std::string>& origins);
 
 /// Adds the options of the live page. The calibrate command has the same ones.
 void add_view_options(CLI::App& command, TrackOptions& options);

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/track/track_command.h"
 #include "app/view/view_run.h"
-#include "io/web/allowed_origin.h"
 
 namespace barehand {
 
@@ -19,10 +19,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   view->add_option("--prefix", o.prefix, "channel prefix of the tracker");
   view->add_option("--port", o.port, "PORT or ADDRESS:PORT of the page; 0.0.0.0:8765: for the whole network")
       ->capture_default_str();
-  view->add_option("--origin", o.origins, "origin of another web page that may connect, such as https://example.org")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->check(wrong_origin);
+  add_origin_option(*view, "--origin", o.origins);
   view->add_option("--hand", o.hands, "profile whose skin is shown (hand.json); default: the mean adult hand")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <future>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,8 @@ class DelayedResult {
     result_ = std::move(result);
   }
   bool pending() const { return result_.valid(); }
+  /// Lets a pending result be dropped.
+  void outdate() { begun_ = std::numeric_limits<std::int64_t>::min() / 2; }
   /// The result, once, if it is there in frame number `now` and neither too new nor outdated. Exceptions of the work
   /// are rethrown.
   std::optional<T> take(std::int64_t now) {

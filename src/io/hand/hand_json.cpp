@@ -285,11 +285,6 @@ Result<HandProfile> parse_profile(const std::string& text, const std::string& wh
   return profile_from(*json, where);
 }
 
-Result<void> check_profile_path(const std::string& path) {
-  auto file = AtomicFile::create(path, true);
-  return file ? Result<void>() : tl::unexpected(file.error());
-}
-
 Result<void> save_profile(const HandProfile& profile, const std::string& path) {
   Json json = {{"handedness", to_string(profile.handedness)}, {"segments", Json::array()}};
   if (profile.origin == ProfileOrigin::mean) json["mean_hand"] = true;

@@ -13,8 +13,6 @@ namespace barehand {
 Result<HandProfile> load_profile(const std::string& path);
 /// Reads a profile from the text of such a file; `where` stands for the file's name in messages.
 Result<HandProfile> parse_profile(const std::string& text, const std::string& where);
-/// Checks that `path` can be written, before there is something to save.
-Result<void> check_profile_path(const std::string& path);
 /// Writes a file that load_profile reads, rounded to 1e-9 m. An existing profile stays until the new one is complete.
 Result<void> save_profile(const HandProfile& profile, const std::string& path);
 

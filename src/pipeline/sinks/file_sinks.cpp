@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/both.h"
+#include "io/atomic_file.h"
 #include "io/hand/hand_json.h"
 #include "io/hand/path_of_hand.h"
 
@@ -72,7 +73,7 @@ Result<void> OverlaySink::finish() {
 Result<std::unique_ptr<Sink>> SaveHandSink::create(const std::string& path,
                                                    const std::vector<std::shared_ptr<const HandProfile>>& profiles) {
   for (std::size_t k = 0; k < profiles.size(); ++k)
-    if (auto possible = check_profile_path(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness)); !possible)
+    if (auto possible = check_writable(path_of_hand(path, static_cast<int>(k), profiles[k]->handedness)); !possible)
       return tl::unexpected(possible.error());
   return std::unique_ptr<Sink>(new SaveHandSink(path));
 }

@@ -33,9 +33,7 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions.
-  const DetectedJoints& joints = detected.joints_of(profile.handedness);
-  const bool own_side = detected.may_be(profile.handedness);
-  const auto fit = fit_size_to_joints(own_side ? profile : mirrored(profile), joints, kScaleDeviation);
+  const auto fit = fit_size_to_hand(profile, detected, kScaleDeviation);
   cues.misfit = fit ? fit->cost : INFINITY;
   return cues;
 }

@@ -17,7 +17,6 @@ struct SecondOpinion::Question {
   HandObservation observation;  // with the second look
   HandPose followed;
   double score;  // of the followed pose
-  int track;
 
   std::optional<Better> answer() const;
 };
@@ -36,7 +35,7 @@ std::optional<SecondOpinion::Better> SecondOpinion::Question::answer() const {
   if (!agrees_better(found) || !clearly_better(found.score, score, -kHandAdvantage)) return std::nullopt;
   found = neutral_pose(observation, found, *profile, refinement, params);
   if (!agrees_better(found) || found.score > score) return std::nullopt;
-  return Better{found.pose, followed, track};
+  return Better{found.pose, followed};
 }
 
 std::optional<HandPose> SecondOpinion::next(const HandObservation& observation, const HandModel& hand,
@@ -44,12 +43,11 @@ std::optional<HandPose> SecondOpinion::next(const HandObservation& observation, 
   const auto found = better_.take(frame);
   if (observation.second_look && !better_.pending()) {
     // The question holds copies, since the tracker goes on meanwhile.
-    Question question{context_.params,       hand.profile,     hand.skin, observation,
-                      followed.refined.pose, followed.score(), track_};
+    Question question{context_.params, hand.profile, hand.skin, observation, followed.refined.pose, followed.score()};
     better_.begin(frame, context_.workers.run_in_background(
                              [question = std::move(question)](Workers&) { return question.answer(); }));
   }
-  if (!found || !*found || (*found)->track != track_) return std::nullopt;
+  if (!found || !*found) return std::nullopt;
 
   HandPose pose = (*found)->pose;
   const SE3 motion = followed.refined.pose[kPalm] * (*found)->followed[kPalm].inverse();

@@ -24,19 +24,17 @@ class SecondOpinion {
   std::optional<HandPose> next(const HandObservation& observation, const HandModel& hand, const Hypothesis& followed,
                                std::uint32_t frame);
   /// Ignores what is being examined, since another hand is followed from now on.
-  void forget() { ++track_; }
+  void forget() { better_.outdate(); }
 
  private:
   /// A pose that is better than the followed pose of the same frame.
   struct Better {
     HandPose pose, followed;
-    int track;
   };
   /// Whether the joints of a second look give such a pose; asked once.
   struct Question;
 
   const TrackerContext& context_;
-  int track_ = 0;  // number of tracks before this one
   DelayedResult<std::optional<Better>> better_;
 };
 
