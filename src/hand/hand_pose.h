@@ -58,8 +58,9 @@ struct HandEstimate {
   std::int32_t hand_id = 0;
   Handedness handedness = Handedness::right;
   std::array<SegmentState, kSegmentCount> segments;  ///< meaningless while searching
-  double score = 0;      ///< global score: mean mismatch of model and data [m], lower is better
-  double joint_gap = 0;  ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
+  double score = 0;        ///< global score: mean mismatch of model and data [m], lower is better
+  bool ambiguous = false;  ///< explained clearly worse than this hand usually is; fingers may be confused
+  double joint_gap = 0;    ///< mean raw gap between adjacent ends before joints are closed [m] (paper Sec. 5.2)
   std::shared_ptr<const HandProfile> profile;
   Decisions decisions;  ///< the decisions that led to this estimate, in order
 

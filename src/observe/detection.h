@@ -80,6 +80,8 @@ struct Detection {
   /// Whether a hand that is not tracked yet can only be one of `hands`. False if all hands are tracked, because then
   /// only windows around them were searched.
   bool whole_frame = false;
+  /// Whether every tracked hand was looked for where it is expected: one that is not in `hands` was not seen there.
+  bool around_tracked = false;
   std::vector<DetectedHand> hands;  ///< most probable first; no two at the same place
   /// A tracked hand that was examined again in an earlier frame (stages/detection/second_look.h), moved to where it is
   /// expected now. None in most frames.

@@ -41,7 +41,7 @@ void EstimateBuilder::change() {
 }
 
 HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen,
-                                       bool bad, const PersonModel& person, Decisions decisions) {
+                                       bool bad, bool ambiguous, const PersonModel& person, Decisions decisions) {
   auto out = std::allocate_shared<HandEstimate>(FrameAllocator<HandEstimate>());
 
   // Copy what identifies the frame and the hand.
@@ -57,6 +57,7 @@ HandEstimatePtr EstimateBuilder::build(const HandObservation& observation, Track
   // Fill in the pose that was chosen, or the last tracked one while the track is held or lost.
   if (status == TrackStatus::tracking && chosen) {
     fill_segments(*out, *chosen, bad, person.size_in_view());
+    out->ambiguous = ambiguous;
     last_tracked_ = out;
   } else if (last_tracked_ && (status == TrackStatus::holding || status == TrackStatus::lost)) {
     fill_held(*out);

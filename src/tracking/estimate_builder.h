@@ -35,9 +35,9 @@ class EstimateBuilder {
   void reset() { last_tracked_.reset(); }
 
   /// `chosen`: the pose of this frame; null: there is none. It is used only if `status` is tracking. `bad`: its score
-  /// is that of a bad frame, so that the hand may be in another pose, or elsewhere.
+  /// is that of a bad frame, so that the hand may be in another pose, or elsewhere. `ambiguous`: of an ambiguous one.
   HandEstimatePtr build(const HandObservation& observation, TrackStatus status, const Hypothesis* chosen, bool bad,
-                        const PersonModel& person, Decisions decisions);
+                        bool ambiguous, const PersonModel& person, Decisions decisions);
 
  private:
   void fill_segments(HandEstimate& out, const Hypothesis& chosen, bool bad, double size_in_view);

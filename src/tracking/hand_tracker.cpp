@@ -36,7 +36,7 @@ HandEstimatePtr HandTracker::process(const HandObservation& observation) {
       followed ? choice_.score_with_detection(observation, person_.profile(), followed->refined) : INFINITY;
   if (score < track_.state.bad_threshold(evidence)) {
     track_.search_frames = 0;
-    proposers_.look_again(observation, person_.hand(), *followed, frame_);
+    proposers_.look_again(observation, person_.hand(), track_, *followed, frame_);
     proposers_.uncross_fingers(observation, person_.hand(), *followed);
     track_.baseline.update(followed->score());
     other = proposers_.propose_alternative(observation, person_.hand(), track_, *followed, frame_);
@@ -73,8 +73,9 @@ HandEstimatePtr HandTracker::conclude(const HandObservation& observation, const 
 
   // Build the estimate before learning: the pose refers to the hand model as it was in this frame.
   const bool bad = evidence.score && *evidence.score > track_.state.bad_threshold(evidence);
+  const bool ambiguous = best && track_.is_ambiguous(best->score(), context_.params.choice);
   HandEstimatePtr estimate =
-      estimates_.build(observation, status, best ? &*best : nullptr, bad, person_, choice_.take());
+      estimates_.build(observation, status, best ? &*best : nullptr, bad, ambiguous, person_, choice_.take());
 
   // Learn the person.
   const bool good = tracked && best->score() < track_.state.good_threshold(evidence);

@@ -55,8 +55,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
     detection = tl::unexpected(look.error());
   else if (whole)
     detection = detector_->detect(frame, workers_, places_, side);
-  else if (windows)
-    detection = detector_->detect_at(frame, places_, workers_);
+  if (windows && detection) detection = detector_->detect_at(frame, places_, workers_, std::move(*detection));
 
   // After an error, continue without the networks.
   if (!detection) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kPalmRadius = 8;   // half the side of the square around a peak in which the palm's depth is measured [px]
 constexpr double kApart = 0.09;  // minimum distance between two hands' palms [m]
+constexpr double kSameHand = 0.05;  // the same for tracked hands, which are known to be two [m]
 
 /// Median depth [m] of the pixels near a peak of the palm heat map that the network labels as hand; 0 if there are
 /// none. (u, v): pixel of `depth` at the peak.
@@ -84,8 +85,8 @@ Result<void> HandDetector::find_palms(const RgbdFrame& frame, Workers& workers, 
   return {};
 }
 
-bool HandDetector::is_new(const Eigen::Vector3d& centre, const Detection& out) {
-  return std::ranges::none_of(out.hands, [&](const auto& hand) { return (hand.centre - centre).norm() < kApart; });
+bool HandDetector::is_new(const Eigen::Vector3d& centre, const Detection& out, double apart) {
+  return std::ranges::none_of(out.hands, [&](const auto& hand) { return (hand.centre - centre).norm() < apart; });
 }
 
 Result<void> HandDetector::examine(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers) {
@@ -97,7 +98,7 @@ Result<void> HandDetector::examine(const RgbdFrame& frame, std::span<const Expec
 }
 
 void HandDetector::add(std::optional<DetectedHand> hand, double palm, Detection& out) {
-  if (!hand || !is_new(hand->centre, out) || out.hands.size() == kMostHands) return;
+  if (!hand || !is_new(hand->centre, out, kApart) || out.hands.size() == kMostHands) return;
   hand->palm = palm;
   out.hands.push_back(std::move(*hand));
 }
@@ -107,7 +108,7 @@ void HandDetector::choose_palms(const Detection& out) {
   for (; next_ < palms_.size() && chosen_.size() < kAtOnce; ++next_) {
     const Palm& palm = palms_[next_];
     const auto near = [&](const Palm& other) { return (other.centre - palm.centre).norm() < 2 * kApart; };
-    if (!is_new(palm.centre, out)) continue;
+    if (!is_new(palm.centre, out, kApart)) continue;
     if (std::ranges::any_of(chosen_, near)) return;
     chosen_.push_back(palm);
   }
@@ -143,15 +144,25 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
   return out;
 }
 
-Result<Detection> HandDetector::detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> places,
-                                          Workers& workers) {
-  Detection out;
-  while (!places.empty()) {
+Result<Detection> HandDetector::detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> tracked,
+                                          Workers& workers, Detection found) {
+  Detection out = std::move(found);
+  places_.clear();
+  for (const ExpectedHand& hand : tracked)
+    if (is_new(hand.centre, out, kSameHand)) places_.push_back(hand);
+
+  for (std::span<const ExpectedHand> places = places_; !places.empty();) {
     const auto some = places.first(std::min<std::size_t>(kAtOnce, places.size()));
     places = places.subspan(some.size());
     if (const auto done = examine(frame, some, workers); !done) return tl::unexpected(done.error());
-    for (std::size_t i = 0; i < some.size(); ++i) add(std::move(*found_[i]), 1, out);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      std::optional<DetectedHand>& hand = *found_[i];
+      if (!hand || !is_new(hand->centre, out, kSameHand)) continue;
+      hand->palm = 1;
+      out.hands.push_back(std::move(*hand));
+    }
   }
+  out.around_tracked = true;
   return out;
 }
 

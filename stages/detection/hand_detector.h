@@ -34,8 +34,10 @@ class HandDetector {
   Result<Detection> detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked = {},
                            std::optional<Handedness> wanted = std::nullopt);
 
-  /// Finds the hands at the given places without searching the rest of the frame. Places without a hand are left out.
-  Result<Detection> detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers);
+  /// Looks for the tracked hands where they are expected, unless they are already in `found`, the result of detect()
+  /// for this frame. Returns that with the hands that are seen there.
+  Result<Detection> detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> tracked, Workers& workers,
+                              Detection found = {});
 
   /// Examines one place, with a network of its own. May run on another thread beside the other functions, but not twice
   /// at a time.
@@ -61,7 +63,7 @@ class HandDetector {
   void choose_palms(const Detection& out);
   /// Examines up to kAtOnce places at the same time.
   Result<void> examine(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers);
-  static bool is_new(const Eigen::Vector3d& centre, const Detection& out);
+  static bool is_new(const Eigen::Vector3d& centre, const Detection& out, double apart);
   static void add(std::optional<DetectedHand> hand, double palm, Detection& out);
 
   static constexpr int kAtOnce = 2;  // number of windows that are examined at the same time, whatever the workers

@@ -24,7 +24,7 @@ void visit(V& v, DetectionParams& p) {
   v("every_tracked", p.every_tracked, 1, 1000,
     "every n-th frame is searched around each tracked hand where no colour tells it from other things");
   v("second_look_every", p.second_look_every, 0, 1000,
-    "every n-th frame one tracked hand is examined again if some of it is not seen, to find confused fingers; 0: "
+    "every n-th frame, and sooner if it is ambiguous, one tracked hand is examined again if some of it is not seen; 0: "
     "never");
   v("least_palm", p.least_palm, 0.01, 0.99, "minimum probability with which the network must report a palm");
 }

@@ -10,12 +10,13 @@
 namespace barehand {
 
 /// Looks at tracked hands again, now and then. A finger that the tracker has taken for its hidden neighbour may explain
-/// the data as well as the right one, but the networks mostly tell them apart. Every few frames one hand of which not
-/// every segment is seen is examined beside the tracking (Workers::run_in_background). The result comes some frames
+/// the data as well as the right one, but the networks mostly tell them apart. Every few frames, and sooner if a hand
+/// is ambiguous, one hand of which not every segment is seen is examined beside the tracking
+/// (Workers::run_in_background). The result comes some frames
 /// later; for a recording always equally many, so that results are the same on every machine. Not thread-safe.
 class SecondLook {
  public:
-  /// `every`: frames from one look to the next; 0: never.
+  /// `every`: frames from one look to the next unless a hand is ambiguous; 0: never.
   explicit SecondLook(int every) : every_(every) {}
 
   /// Call once per frame. Returns the hand that was examined in an earlier frame, moved with its palm to where that is
@@ -31,7 +32,7 @@ class SecondLook {
     Eigen::Vector3d centre;  // where its palm was expected [m]
     Result<std::optional<DetectedHand>> found;
   };
-  void begin(const FramePtr& frame, std::span<const HandEstimatePtr> feedback, HandDetector& detector,
+  void begin(const FramePtr& frame, std::span<const HandEstimatePtr> feedback, std::size_t hand, HandDetector& detector,
              Workers& workers);
 
   int every_;

@@ -32,11 +32,17 @@ constexpr float kTouchingArea = 0.0007f;
 constexpr float kLoosePart = 0.12f;
 constexpr float kHandRadius = 0.13f;     // distance from a hand's centre to its farthest parts [m]
 constexpr float kDetectedReach = 0.17f;  // distance from the middle of a palm to the farthest fingertip [m]
+constexpr double kSamePalm = 0.07;       // distance between the middles of a palm as tracked and as detected [m]
 constexpr float kSearchRadius = 0.22f;   // cells within this distance of a hand's centre are examined [m]
 constexpr float kSideBySide = 0.10f;     // difference of depth up to which two candidates are equally near [m]
 constexpr double kMetresAtRest = 0.06;   // motion that is allowed however short the frame interval is [m]
 constexpr float kOnBones = 0.025f;  // distance from a detected bone up to which skin counts, whatever its label [m]
 constexpr double kCloseBy = 0.05;   // motion that is allowed for a hand that touches a large surface [m]
+
+/// Whether the networks decide where tracked hands are: they looked for them, and no colour shows where they are.
+bool networks_decide(const CoarseGrid& grid, const Detection* detection) {
+  return detection && detection->around_tracked && !grid.coloured;
+}
 
 /// Distance [m] of a point from the nearest bone of a detected hand.
 float bone_distance(const DetectedHand& hand, const Eigen::Vector3f& p) {
@@ -92,7 +98,7 @@ void HandLocator::locate(const CoarseGrid& grid, const StandingDepth& standing,
     for (std::size_t other = 0; other < hands_.size(); ++other)
       if (other != k && tracked(other)) remove_nearer_to(grid, *predictions_[other], *predictions_[k]);
     split_surfaces(grid, candidates_, surfaces_);
-    hands_[k].found = hands_[k].followed = follow(grid, *predictions_[k], feedback_age, detection, hands_[k]);
+    hands_[k].found = hands_[k].followed = follow(grid, *predictions_[k], true, feedback_age, detection, hands_[k]);
   }
 
   // Follow the hands that have a pose but are not tracked, among the candidates that are left.
@@ -105,15 +111,15 @@ void HandLocator::locate(const CoarseGrid& grid, const StandingDepth& standing,
     CoarseHand& hand = hands_[k];
     if (hand.found || !predictions_[k] || tracked(k)) continue;
     split_surfaces(grid, candidates_, surfaces_);
-    hand.found = hand.followed = follow(grid, *predictions_[k], feedback_age, detection, hand);
+    hand.found = hand.followed = follow(grid, *predictions_[k], false, feedback_age, detection, hand);
     if (hand.found) remove_hand(grid, hand);
   }
   for (CoarseHand& hand : hands_) {  // hands without a match come last, as a held hand may be the nearest candidate
     if (hand.found) continue;
+    hand.standing = nullptr;  // the hand may be what stood there
 
-    // Start where the networks found a hand, if only such hands may start (Detection::whole_frame); else at the most
-    // plausible surface.
-    if (detection && detection->whole_frame) {
+    // Start where the networks found a hand, if only such hands may start; else at the most plausible surface.
+    if (detection && (detection->whole_frame || networks_decide(grid, detection))) {
       const DetectedHand* const detected = choose_detected(*detection);
       hand.found = detected && start_at(grid, *detected, hand);
     } else {
@@ -254,8 +260,8 @@ std::optional<Eigen::Vector3f> HandLocator::motion(const CoarseGrid& grid, const
   return translation_.find(hand, grid, movable_, std::min(reach, kCloseBy));
 }
 
-bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
-                         CoarseHand& hand) {
+bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, bool tracked, double feedback_age,
+                         const Detection* detection, CoarseHand& hand) {
   // Move the predicted hand to its place in this frame.
   const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(feedback_age, 0.0, 0.5));
   if (!step) return false;
@@ -291,9 +297,13 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
 
-  // Too small an area is not a hand.
-  if (hand_area(grid, hand) < params_.min_hand_area) {
+  // Too small an area is not a hand. Nor is, without colour, what the networks do not see as one: the track has slipped
+  // onto the arm or an object.
+  if (detection) hand.detected = detected_near(detection->hands, body.centre(), kSamePalm);
+  const bool slipped = tracked && networks_decide(grid, detection) && !hand.detected;
+  if (slipped || hand_area(grid, hand) < params_.min_hand_area) {
     hand.cells.reset(grid.z.width(), grid.z.height());
+    hand.detected = nullptr;
     return false;
   }
 
@@ -302,7 +312,6 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, double feed
 
   // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;
-  if (detection) hand.detected = detected_near(detection->hands, body.centre(), kHandRadius);
   hand.labelled = use_labels_ && hand.detected;
   if (detection && detection->second_look)
     hand.second_look = detected_near({&*detection->second_look, 1}, body.centre(), kHandRadius);

@@ -23,8 +23,10 @@ class HandLocator {
   /// `standing`: what stood there before; it is no part of a tracked hand. `feedback`: one estimate per hand or none at
   /// all; each may be null. `feedback_age`: seconds since its frame.
   /// `detection`: result for this frame; null: surfaces and colours alone decide. Within its windows, its labels
-  /// distinguish the hand from arm, object and background; if its `whole_frame` is set, nothing else starts a hand.
-  /// Returns one result per hand, in the order of the feedback, valid until the next call and as long as `detection`.
+  /// distinguish the hand from arm, object and background; if its `whole_frame` is set, nothing else starts a hand. If
+  /// it looked around the tracked hands and there is no colour, a hand that it did not see there is not found there
+  /// either. Returns one result per hand, in the order of the feedback, valid until the next call and as long as
+  /// `detection`.
   std::span<const CoarseHand> find(const CoarseGrid& grid, const StandingDepth& standing,
                                    std::span<const HandEstimatePtr> feedback, double feedback_age,
                                    const Detection* detection = nullptr);
@@ -35,7 +37,7 @@ class HandLocator {
  private:
   std::optional<Eigen::Vector3f> motion(const CoarseGrid& grid, const PredictedHand& hand, double reach);
   void remove_nearer_to(const CoarseGrid& grid, const PredictedHand& other, const PredictedHand& own);
-  bool follow(const CoarseGrid& grid, PredictedHand body, double feedback_age, const Detection* detection,
+  bool follow(const CoarseGrid& grid, PredictedHand body, bool tracked, double feedback_age, const Detection* detection,
               CoarseHand& hand);
   bool start(const CoarseGrid& grid, CoarseHand& hand);
   void locate(const CoarseGrid& grid, const StandingDepth& standing, std::span<const HandEstimatePtr> feedback,

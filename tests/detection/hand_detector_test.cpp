@@ -201,6 +201,24 @@ TEST_F(HandDetectorTest, AnExpectedHandIsLookedAtAndAnEmptyPlaceIsNoHand) {
   EXPECT_FALSE(detection->whole_frame);
   ASSERT_EQ(detection->hands.size(), 1u);
   EXPECT_LT(mean_error(detection->hands[0], *right_, pose), 0.02);
+  EXPECT_TRUE(detection->around_tracked);
+
+  // A place is not examined where a search of the whole frame found a hand: that one here would be another one.
+  Detection whole = detect(*frame);
+  EXPECT_FALSE(whole.around_tracked);
+  ASSERT_EQ(whole.hands.size(), 1u);
+  const Eigen::Vector3d found = whole.hands[0].centre;
+  whole.hands[0].centre.x() += 0.06;
+  const std::vector<ExpectedHand> between = {{found + Eigen::Vector3d(0.03, 0, 0), Handedness::right}};
+  const auto both = detector_->detect_at(*frame, between, workers_, whole);
+  ASSERT_TRUE(both);
+  EXPECT_TRUE(both->whole_frame && both->around_tracked);
+  EXPECT_EQ(both->hands.size(), 1u);
+
+  whole.hands[0].centre.x() += 0.06;
+  const auto other = detector_->detect_at(*frame, between, workers_, whole);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->hands.size(), 2u);
 }
 
 TEST_F(HandDetectorTest, TheNumberOfThreadsChangesNoBit) {

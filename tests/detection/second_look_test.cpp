@@ -52,6 +52,13 @@ TEST_F(SecondLookTest, ComesTwoFramesAfterEveryNth) {
   EXPECT_LT((last_.centre - hand_.segments[kPalm].T_camera_segment.t).norm(), 0.06);
 }
 
+TEST_F(SecondLookTest, ComesSoonerIfTheHandIsAmbiguous) {
+  SecondLook rare(100), again(100);
+  EXPECT_EQ(frames_with_result(rare, 14), (std::vector{2}));
+  hand_.ambiguous = true;
+  EXPECT_EQ(frames_with_result(again, 14), (std::vector{2, 7, 12}));
+}
+
 TEST_F(SecondLookTest, IsNotTakenAtAHandThatIsSeenOrLostOrWhenSwitchedOff) {
   SecondLook never(0);
   EXPECT_TRUE(frames_with_result(never, 4).empty());

@@ -92,6 +92,27 @@ TEST_F(DetectionMask, WhereTheWholeFrameShowsNoHandASurfaceOfItsSizeIsNone) {
   EXPECT_FALSE(observe(alone, nothing)->hand_present);
 }
 
+TEST_F(DetectionMask, WithoutColourATrackedHandThatTheNetworksDoNotSeeHasSlipped) {
+  const auto earlier = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
+  const PaintedScene alone = PaintedScene().hand(-0.1, 0.05, kZ).no_colour();
+  auto nothing = std::make_shared<Detection>();
+  EXPECT_TRUE(observe(alone, nothing, {earlier}, 1)->followed);  // they did not look
+  nothing->around_tracked = true;
+  EXPECT_FALSE(observe(alone, nothing, {earlier}, 2)->hand_present);
+  EXPECT_TRUE(observe(PaintedScene().hand(-0.1, 0.05, kZ), nothing, {earlier}, 3)->followed);  // colour shows it
+
+  // It is taken up where they see a hand instead.
+  PaintedScene two;
+  two.hand(-0.1, 0.05, kZ).hand(0.15, 0.05, kZ).no_colour();
+  auto elsewhere = std::make_shared<Detection>(*detected(two, 0.15));
+  elsewhere->whole_frame = false;
+  elsewhere->around_tracked = true;
+  const auto o = observe(two, elsewhere, {earlier}, 4);
+  ASSERT_TRUE(o->hand_present && o->detected);
+  EXPECT_FALSE(o->followed);
+  EXPECT_EQ(o->detected->centre.x(), 0.15);
+}
+
 TEST_F(DetectionMask, TwoHandsThatAreSearchedForGetOneDetectedHandEach) {
   PaintedScene scene;
   scene.hand(-0.1, 0.05, kZ).hand(0.15, 0.05, kZ).no_colour();

@@ -17,13 +17,21 @@ class SecondOpinionTest : public ::testing::Test {
   std::optional<HandPose> after(int n, const HandPose& followed, const SE3& motion = {}) {
     SecondOpinion opinion(context_);
     HandObservation looked_at = *seen_;
-    looked_at.second_look = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, pose_, 6, 0.01));
+    looked_at.second_look = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, look_, 6, 0.01));
+    if (by_detection_) std::swap(looked_at.second_look, looked_at.detected);
     Hypothesis hypothesis;
     hypothesis.refined = hand_.refinement.evaluate(*seen_, followed);
-    EXPECT_FALSE(opinion.next(looked_at, hand_, hypothesis, 0));
-    for (int i = 1; i < n; ++i) EXPECT_FALSE(opinion.next(*seen_, hand_, hypothesis, i)) << i;
+    EXPECT_FALSE(opinion.next(looked_at, hand_, hypothesis, ambiguous_, 0));
+    for (int i = 1; i < n; ++i) EXPECT_FALSE(opinion.next(*seen_, hand_, hypothesis, false, i)) << i;
     for (SE3& segment : hypothesis.refined.pose) segment = motion * segment;
-    return opinion.next(*seen_, hand_, hypothesis, n);
+    return opinion.next(*seen_, hand_, hypothesis, false, n);
+  }
+  /// The pose with some fingers bent.
+  HandPose with_bent(std::initializer_list<int> fingers) const {
+    HandPose pose = pose_;
+    for (const int finger : fingers)
+      for (int k = 0; k < 3; ++k) pose[segment_of(finger, k)] = bent_[segment_of(finger, k)];
+    return pose;
   }
 
   Workers workers_{1};
@@ -32,6 +40,9 @@ class SecondOpinionTest : public ::testing::Test {
   const HandObservationPtr seen_ = test::observe_skin(make_blended_skin(*profile_, 0.004), pose_);
   const TrackerContext context_{test::quick_tracker(), 1, workers_, make_silent_logger(), nullptr};
   const HandModel hand_{context_.params, profile_, workers_, nullptr};
+  HandPose look_ = pose_;      // what the second look sees
+  bool by_detection_ = false;  // whether the detection sees it, and not a second look
+  bool ambiguous_ = false;     // whether the followed pose is ambiguous
 };
 
 TEST_F(SecondOpinionTest, IsABetterPoseTwoFramesLater) {
@@ -46,6 +57,22 @@ TEST_F(SecondOpinionTest, MovesWithTheFollowedPalm) {
   const auto still = after(2, bent_), moved = after(2, bent_, motion);
   ASSERT_TRUE(still && moved);
   for (int s = 0; s < kSegmentCount; ++s) EXPECT_LT(boxminus((*moved)[s], motion * (*still)[s]).norm(), 1e-9) << s;
+}
+
+TEST_F(SecondOpinionTest, TakesTheFingerAloneThatTheLookSeesRight) {
+  look_ = with_bent({3, 4});  // as a whole it is worse than what is followed
+  const auto better = after(2, with_bent({1}));
+  ASSERT_TRUE(better);
+  for (int s = 0; s < kSegmentCount; ++s) EXPECT_LT(((*better)[s].t - pose_[s].t).norm(), 0.003) << s;
+
+  EXPECT_FALSE(after(2, pose_));
+}
+
+TEST_F(SecondOpinionTest, OfAnAmbiguousHandIsThatOfTheDetection) {
+  by_detection_ = true;
+  EXPECT_FALSE(after(2, bent_));
+  ambiguous_ = true;
+  EXPECT_TRUE(after(2, bent_));
 }
 
 TEST_F(SecondOpinionTest, IsNoneIfTheFollowedPoseIsRight) { EXPECT_FALSE(after(2, pose_)); }

@@ -78,6 +78,9 @@ void visit(V& v, ChoiceParams& p) {
 // the networks are about as wrong as usual, and lower by the second than for the followed pose.
 inline constexpr double kTrustedJointCost = 1.2, kJointCostAdvantage = 0.05;
 
+/// A pose in which fingers were exchanged for those of a second look needs this advantage, and a lower joint cost.
+inline constexpr double kExchangeAdvantage = 0.05;
+
 /// The pose with uncrossed fingers may have a score that is higher by up to this fraction: fingers side by side are
 /// more likely a priori.
 inline constexpr double kUncrossAllowance = 0.05;

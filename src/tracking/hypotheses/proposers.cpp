@@ -79,9 +79,10 @@ std::optional<Hypothesis> Proposers::propose_alternative(const HandObservation& 
   return std::nullopt;
 }
 
-void Proposers::look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed,
-                           std::uint32_t frame) {
-  const auto pose = second_opinion_.next(observation, hand, followed, frame);
+void Proposers::look_again(const HandObservation& observation, const HandModel& hand, const Track& track,
+                           Hypothesis& followed, std::uint32_t frame) {
+  const bool ambiguous = track.is_ambiguous(followed.score(), context_.params.choice);
+  const auto pose = second_opinion_.next(observation, hand, followed, ambiguous, frame);
   if (!pose) return;
   auto best = best_of(Origin::detected, observation, hand, {{"detected", *pose}}, context_.params.near_iterations);
   if (choice_.replaces("second look", *best, followed, 0)) followed = std::move(*best);

@@ -33,10 +33,11 @@ class Proposers {
   std::optional<Hypothesis> propose_alternative(const HandObservation& observation, const HandModel& hand, Track& track,
                                                 const Hypothesis& followed, std::uint32_t frame) const;
 
-  /// Replaces the followed pose by that of a second look of the networks (SecondOpinion), if there is one and it
-  /// explains the frame no worse. Fingers that were taken for their hidden neighbours get their places back in this
-  /// way.
-  void look_again(const HandObservation& observation, const HandModel& hand, Hypothesis& followed, std::uint32_t frame);
+  /// Replaces the followed pose by what the networks see (SecondOpinion), if something of it was examined and it
+  /// explains the frame no worse. Fingers that were lost, or taken for their hidden neighbours, get their places back
+  /// in this way.
+  void look_again(const HandObservation& observation, const HandModel& hand, const Track& track, Hypothesis& followed,
+                  std::uint32_t frame);
 
   /// Call when a track begins.
   void start_track() { second_opinion_.forget(); }

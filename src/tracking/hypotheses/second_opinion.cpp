@@ -1,49 +1,116 @@
-// Refines the pose that a second look of the networks found, beside the tracking.
+// Refines what a second look of the networks found, the whole pose or single fingers, beside the tracking.
 #include "tracking/hypotheses/second_opinion.h"
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "stages/search/inverse_kinematics.h"
 #include "tracking/hypotheses/choice.h"
 #include "tracking/hypotheses/neutral_pose.h"
 
 namespace barehand {
+namespace {
+
+constexpr double kOtherPlace = 0.02;  // a finger of which an end of a segment moves farther lies elsewhere [m]
+
+/// Moves a finger (0 the thumb) to where it is in `other`, relative to the palm. Returns the largest distance by which
+/// an end of its segments moves [m].
+double exchange_finger(const HandProfile& profile, const HandPose& other, int finger, HandPose& pose) {
+  const SE3 motion = pose[kPalm] * other[kPalm].inverse();
+  double farthest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int s = segment_of(finger, k);
+    const Eigen::Vector3d end = distal_end(profile, pose, s);
+    pose[s] = motion * other[s];
+    farthest = std::max(farthest, (distal_end(profile, pose, s) - end).norm());
+  }
+  return farthest;
+}
+
+}  // namespace
 
 struct SecondOpinion::Question {
   TrackerParams params;
   std::shared_ptr<const HandProfile> profile;
   std::shared_ptr<const Skin> skin;
-  HandObservation observation;  // with the second look
+  HandObservation observation;
+  DetectedJoints joints;  // of the look
   HandPose followed;
   double score;  // of the followed pose
 
   std::optional<Better> answer() const;
+
+ private:
+  // The refined pose of the look, if it explains the frame no worse than the followed pose and agrees better with the
+  // joints.
+  std::optional<HandPose> whole_hand(const Refinement& refinement, const KinematicFit& fit) const;
+  // The followed pose with one or all of those fingers that the look sees elsewhere, refined, if that explains the
+  // frame clearly better and agrees better with the joints.
+  std::optional<HandPose> exchanged_fingers(const Refinement& refinement, const HandPose& seen) const;
 };
 
 std::optional<SecondOpinion::Better> SecondOpinion::Question::answer() const {
+  const auto fit = fit_to_joints(*profile, joints);
+  if (!fit) return std::nullopt;
+  const Refinement refinement(params.refinement, profile, skin);
+  auto better = whole_hand(refinement, *fit);
+  if (!better) better = exchanged_fingers(refinement, fit->pose);
+  if (!better) return std::nullopt;
+  return Better{*better, followed};
+}
+
+std::optional<HandPose> SecondOpinion::Question::whole_hand(const Refinement& refinement,
+                                                            const KinematicFit& fit) const {
   // The joints must agree with a pose about as well as usual, and better than with the followed one.
-  const DetectedJoints& joints = observation.second_look->joints;
   const double least = std::min(kTrustedJointCost, joint_cost(*profile, followed, joints) - kJointCostAdvantage);
   const auto agrees_better = [&](const RefinedPose& pose) { return joint_cost(*profile, pose.pose, joints) < least; };
-  const auto fit = fit_to_joints(*profile, joints);
-  if (!fit || fit->cost >= least) return std::nullopt;
+  if (fit.cost >= least) return std::nullopt;
 
   // Hidden joints are set last, since most looks only confirm the followed pose.
-  const Refinement refinement(params.refinement, profile, skin);
-  RefinedPose found = refinement.refine(observation, fit->pose, fit->pose, params.search_iterations);
+  RefinedPose found = refinement.refine(observation, fit.pose, fit.pose, params.search_iterations);
   if (!agrees_better(found) || !clearly_better(found.score, score, -kHandAdvantage)) return std::nullopt;
   found = neutral_pose(observation, found, *profile, refinement, params);
   if (!agrees_better(found) || found.score > score) return std::nullopt;
-  return Better{found.pose, followed};
+  return found.pose;
+}
+
+std::optional<HandPose> SecondOpinion::Question::exchanged_fingers(const Refinement& refinement,
+                                                                   const HandPose& seen) const {
+  // Exchange each finger that is seen elsewhere, and all of them together.
+  std::vector<HandPose> poses;
+  HandPose all = followed;
+  for (int finger = 0; finger < kFingerCount; ++finger) {
+    HandPose one = followed;
+    if (exchange_finger(*profile, seen, finger, one) < kOtherPlace) continue;
+    exchange_finger(*profile, seen, finger, all);
+    poses.push_back(one);
+  }
+  if (poses.size() > 1) poses.push_back(all);
+
+  // Refine them and return the best one.
+  std::optional<HandPose> best;
+  const double cost = joint_cost(*profile, followed, joints);
+  double least = (1 - kExchangeAdvantage) * score;
+  for (const HandPose& pose : poses) {
+    const RefinedPose refined = refinement.refine(observation, pose, pose, params.near_iterations);
+    if (!(refined.score < least && joint_cost(*profile, refined.pose, joints) < cost)) continue;
+    least = refined.score;
+    best = refined.pose;
+  }
+  return best;
 }
 
 std::optional<HandPose> SecondOpinion::next(const HandObservation& observation, const HandModel& hand,
-                                            const Hypothesis& followed, std::uint32_t frame) {
+                                            const Hypothesis& followed, bool ambiguous, std::uint32_t frame) {
   const auto found = better_.take(frame);
-  if (observation.second_look && !better_.pending()) {
+  const DetectedHand* look = observation.second_look.get();
+  if (!look && ambiguous) look = observation.detected.get();
+  if (look && !better_.pending()) {
     // The question holds copies, since the tracker goes on meanwhile.
-    Question question{context_.params, hand.profile, hand.skin, observation, followed.refined.pose, followed.score()};
+    const DetectedJoints& joints = look->joints_of(hand.profile->handedness);
+    Question question{context_.params, hand.profile,          hand.skin,       observation,
+                      joints,          followed.refined.pose, followed.score()};
     better_.begin(frame, context_.workers.run_in_background(
                              [question = std::move(question)](Workers&) { return question.answer(); }));
   }
