@@ -27,4 +27,11 @@ void clamp_angles(std::array<JointAngles, kSegmentCount>& angles,
   }
 }
 
+HandPose with_finger_of(const HandPose& pose, const HandPose& other, int finger) {
+  HandPose result = pose;
+  const SE3 motion = pose[kPalm] * other[kPalm].inverse();
+  for (int k = 0; k < 3; ++k) result[segment_of(finger, k)] = motion * other[segment_of(finger, k)];
+  return result;
+}
+
 }  // namespace barehand

@@ -19,4 +19,7 @@ ArticulatedPose articulated_from(const HandProfile& profile, const HandPose& pos
 /// Clamps flexion and abduction to the limits and sets all twists to 0.
 void clamp_angles(std::array<JointAngles, kSegmentCount>& angles, const std::array<JointLimits, kSegmentCount>& limits);
 
+/// `pose` with one finger (0 the thumb) taken from the pose `other`, relative to the palm.
+HandPose with_finger_of(const HandPose& pose, const HandPose& other, int finger);
+
 }  // namespace barehand

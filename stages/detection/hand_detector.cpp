@@ -97,8 +97,8 @@ Result<void> HandDetector::examine(const RgbdFrame& frame, std::span<const Expec
   return {};
 }
 
-void HandDetector::add(std::optional<DetectedHand> hand, double palm, Detection& out) {
-  if (!hand || !is_new(hand->centre, out, kApart) || out.hands.size() == kMostHands) return;
+void HandDetector::add(std::optional<DetectedHand> hand, double palm, double apart, Detection& out) {
+  if (!hand || !is_new(hand->centre, out, apart)) return;
   hand->palm = palm;
   out.hands.push_back(std::move(*hand));
 }
@@ -138,7 +138,7 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       auto& hand = *found_[i];
       known_.examined(chosen_[i].centre, chosen_[i].probability, hand ? &*hand : nullptr);
-      add(std::move(hand), chosen_[i].probability, out);
+      if (out.hands.size() < kMostHands) add(std::move(hand), chosen_[i].probability, kApart, out);
     }
   }
   return out;
@@ -146,24 +146,18 @@ Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers,
 
 Result<Detection> HandDetector::detect_at(const RgbdFrame& frame, std::span<const ExpectedHand> tracked,
                                           Workers& workers, Detection found) {
-  Detection out = std::move(found);
   places_.clear();
   for (const ExpectedHand& hand : tracked)
-    if (is_new(hand.centre, out, kSameHand)) places_.push_back(hand);
+    if (is_new(hand.centre, found, kSameHand)) places_.push_back(hand);
 
   for (std::span<const ExpectedHand> places = places_; !places.empty();) {
     const auto some = places.first(std::min<std::size_t>(kAtOnce, places.size()));
     places = places.subspan(some.size());
     if (const auto done = examine(frame, some, workers); !done) return tl::unexpected(done.error());
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      std::optional<DetectedHand>& hand = *found_[i];
-      if (!hand || !is_new(hand->centre, out, kSameHand)) continue;
-      hand->palm = 1;
-      out.hands.push_back(std::move(*hand));
-    }
+    for (std::size_t i = 0; i < some.size(); ++i) add(std::move(*found_[i]), 1, kSameHand, found);
   }
-  out.around_tracked = true;
-  return out;
+  found.around_tracked = true;
+  return found;
 }
 
 }  // namespace barehand

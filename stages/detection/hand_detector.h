@@ -64,7 +64,7 @@ class HandDetector {
   /// Examines up to kAtOnce places at the same time.
   Result<void> examine(const RgbdFrame& frame, std::span<const ExpectedHand> places, Workers& workers);
   static bool is_new(const Eigen::Vector3d& centre, const Detection& out, double apart);
-  static void add(std::optional<DetectedHand> hand, double palm, Detection& out);
+  static void add(std::optional<DetectedHand> hand, double palm, double apart, Detection& out);
 
   static constexpr int kAtOnce = 2;  // number of windows that are examined at the same time, whatever the workers
 

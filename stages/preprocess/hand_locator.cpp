@@ -266,6 +266,10 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, bool tracke
   const auto step = motion(grid, body, kMetresAtRest + params_.max_speed * std::clamp(feedback_age, 0.0, 0.5));
   if (!step) return false;
   body.translate(*step);
+
+  // Without colour, what the networks do not see as a hand is none: the track has slipped onto the arm or an object.
+  const DetectedHand* const detected = detection ? detected_near(detection->hands, body.centre(), kSamePalm) : nullptr;
+  if (tracked && networks_decide(grid, detection) && !detected) return false;
   const float margin = static_cast<float>(params_.wrist_margin);
 
   // Compute the distance of each cell from the predicted hand.
@@ -297,13 +301,9 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, bool tracke
     hand.cells[i] = hand.distance[i] < (leaks ? kLeakReach : static_cast<float>(params_.hand_reach));
   }
 
-  // Too small an area is not a hand. Nor is, without colour, what the networks do not see as one: the track has slipped
-  // onto the arm or an object.
-  if (detection) hand.detected = detected_near(detection->hands, body.centre(), kSamePalm);
-  const bool slipped = tracked && networks_decide(grid, detection) && !hand.detected;
-  if (slipped || hand_area(grid, hand) < params_.min_hand_area) {
+  // Too small an area is not a hand.
+  if (hand_area(grid, hand) < params_.min_hand_area) {
     hand.cells.reset(grid.z.width(), grid.z.height());
-    hand.detected = nullptr;
     return false;
   }
 
@@ -312,6 +312,7 @@ bool HandLocator::follow(const CoarseGrid& grid, PredictedHand body, bool tracke
 
   // Store the prediction, the detection and the wrist for the next steps.
   hand.prediction = body;
+  hand.detected = detected;
   hand.labelled = use_labels_ && hand.detected;
   if (detection && detection->second_look)
     hand.second_look = detected_near({&*detection->second_look, 1}, body.centre(), kHandRadius);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hand/articulated_pose.h"
 #include "math/angles.h"
 #include "stages/search/start_templates.h"
 #include "support/adult_hand.h"
@@ -60,15 +61,6 @@ class HiddenFingersTest : public testing::TestWithParam<Handedness> {
   HandPose rested(HandPose pose, double seconds) {
     for (int i = 0; i < 30; ++i) pose = following(pose, pose, seconds / 30);
     return pose;
-  }
-  /// `pose` with one finger taken from the pose `other`, relative to the palm.
-  static HandPose with_finger_of(const HandPose& pose, const HandPose& other, int finger) {
-    HandPose result = pose;
-    for (int k = 0; k < 3; ++k) {
-      const int s = segment_of(finger, k);
-      result[s] = pose[kPalm] * (other[kPalm].inverse() * other[s]);
-    }
-    return result;
   }
 
   HandProfile profile_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hand/articulated_pose.h"
 #include "support/painted_hand.h"
 #include "support/rendered_person.h"
 #include "tracking/quick_tracker.h"
@@ -29,8 +30,7 @@ class SecondOpinionTest : public ::testing::Test {
   /// The pose with some fingers bent.
   HandPose with_bent(std::initializer_list<int> fingers) const {
     HandPose pose = pose_;
-    for (const int finger : fingers)
-      for (int k = 0; k < 3; ++k) pose[segment_of(finger, k)] = bent_[segment_of(finger, k)];
+    for (const int finger : fingers) pose = with_finger_of(pose, bent_, finger);
     return pose;
   }
 

@@ -2,9 +2,11 @@
 #include "tracking/hypotheses/second_opinion.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
+#include "hand/articulated_pose.h"
 #include "stages/search/inverse_kinematics.h"
 #include "tracking/hypotheses/choice.h"
 #include "tracking/hypotheses/neutral_pose.h"
@@ -14,18 +16,12 @@ namespace {
 
 constexpr double kOtherPlace = 0.02;  // a finger of which an end of a segment moves farther lies elsewhere [m]
 
-/// Moves a finger (0 the thumb) to where it is in `other`, relative to the palm. Returns the largest distance by which
-/// an end of its segments moves [m].
-double exchange_finger(const HandProfile& profile, const HandPose& other, int finger, HandPose& pose) {
-  const SE3 motion = pose[kPalm] * other[kPalm].inverse();
-  double farthest = 0;
-  for (int k = 0; k < 3; ++k) {
+/// Whether a finger lies elsewhere in another pose.
+bool lies_elsewhere(const HandProfile& profile, const HandPose& pose, const HandPose& other, int finger) {
+  return std::ranges::any_of(std::array{0, 1, 2}, [&](int k) {
     const int s = segment_of(finger, k);
-    const Eigen::Vector3d end = distal_end(profile, pose, s);
-    pose[s] = motion * other[s];
-    farthest = std::max(farthest, (distal_end(profile, pose, s) - end).norm());
-  }
-  return farthest;
+    return (distal_end(profile, pose, s) - distal_end(profile, other, s)).norm() >= kOtherPlace;
+  });
 }
 
 }  // namespace
@@ -81,24 +77,24 @@ std::optional<HandPose> SecondOpinion::Question::exchanged_fingers(const Refinem
   std::vector<HandPose> poses;
   HandPose all = followed;
   for (int finger = 0; finger < kFingerCount; ++finger) {
-    HandPose one = followed;
-    if (exchange_finger(*profile, seen, finger, one) < kOtherPlace) continue;
-    exchange_finger(*profile, seen, finger, all);
+    const HandPose one = with_finger_of(followed, seen, finger);
+    if (!lies_elsewhere(*profile, one, followed, finger)) continue;
+    all = with_finger_of(all, seen, finger);
     poses.push_back(one);
   }
   if (poses.size() > 1) poses.push_back(all);
 
   // Refine them and return the best one.
-  std::optional<HandPose> best;
+  std::optional<RefinedPose> best;
   const double cost = joint_cost(*profile, followed, joints);
-  double least = (1 - kExchangeAdvantage) * score;
   for (const HandPose& pose : poses) {
-    const RefinedPose refined = refinement.refine(observation, pose, pose, params.near_iterations);
-    if (!(refined.score < least && joint_cost(*profile, refined.pose, joints) < cost)) continue;
-    least = refined.score;
-    best = refined.pose;
+    RefinedPose refined = refinement.refine(observation, pose, pose, params.near_iterations);
+    if (!clearly_better(refined.score, score, kExchangeAdvantage)) continue;
+    if (best && refined.score >= best->score) continue;
+    if (joint_cost(*profile, refined.pose, joints) < cost) best = std::move(refined);
   }
-  return best;
+  if (!best) return std::nullopt;
+  return best->pose;
 }
 
 std::optional<HandPose> SecondOpinion::next(const HandObservation& observation, const HandModel& hand,

@@ -11,8 +11,8 @@
 namespace barehand {
 
 /// Examines whether the joints that the networks see give a better pose than the followed one, of the whole hand or of
-/// single fingers. Mostly they do not. It takes as long as several frames, and is done
-/// beside the tracking (Workers::run_in_background). Not thread-safe.
+/// single fingers. Mostly they do not. It takes as long as several frames, and is done beside the tracking
+/// (Workers::run_in_background). Not thread-safe.
 class SecondOpinion {
  public:
   /// `context` must outlive the object.
