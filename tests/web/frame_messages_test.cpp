@@ -245,6 +245,26 @@ TEST(LogIndex, SaysWhyThereAreNoImages) {
   EXPECT_NE(index->warnings()[0].find("holds no depth images"), std::string::npos);
 }
 
+TEST(LogIndex, SaysThatStatesAndImagesAreOfDifferentRecordings) {
+  const test::TempFolder folder;
+  const std::string states = folder / "states.lcmlog";
+  auto log = LcmLogWriter::create(states, false);
+  ASSERT_TRUE(log);
+  const hand_state_t state = messages_at(9'000'000).state;
+  ASSERT_TRUE((*log)->send("HAND_STATE", encode_message(state), state.utime));
+  ASSERT_TRUE((*log)->finish());
+  const std::string images = folder / "take.mcap";
+  auto file = mcap::McapWriter::create(images, false);
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(mcap::write_scene(**file, scene_with_image(7, 0)));
+  ASSERT_TRUE((*file)->finish());
+  const auto index = LogIndex::open({states, images});
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->frames(), 1);
+  ASSERT_EQ(index->warnings().size(), 1u);
+  EXPECT_NE(index->warnings()[0].find("same recording"), std::string::npos);
+}
+
 TEST(LogIndex, SaysWhatIsCutOff) {
   const test::TempFolder folder;
   const std::string path = mcap_file(folder);

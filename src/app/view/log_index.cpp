@@ -62,18 +62,29 @@ void LogIndex::find_frames() {
       Frame& frame = of_time[entries[k].utime];
       frame.places.push_back({log, k});
       frame.any_state |= kind == MessageKind::hand_state;
+      frame.any_image |= kind == MessageKind::frame;
       any_states_ |= frame.any_state;
     }
     const std::int64_t images = logs_[log].images ? logs_[log].images->frames() : 0;
-    for (std::int64_t k = 0; k < images; ++k) of_time[logs_[log].images->utime(k)].image = {log, k};
+    for (std::int64_t k = 0; k < images; ++k) {
+      Frame& frame = of_time[logs_[log].images->utime(k)];
+      frame.image = {log, k};
+      frame.any_image = true;
+    }
   }
 
   // Keep the frames that are to be shown.
+  bool any_images = false, any_shown = false;
   for (auto& [utime, frame] : of_time) {
+    any_images |= frame.any_image;
     if (any_states_ && !frame.any_state) continue;
+    any_shown |= frame.any_image;
     frame.utime = utime;
     frames_.push_back(std::move(frame));
   }
+  if (any_images && !any_shown)
+    warnings_.emplace_back(
+        "no images are shown: none has the time of a hand state; give states and images of the same recording");
 }
 
 void LogIndex::find_lost() {

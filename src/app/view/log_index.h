@@ -49,6 +49,7 @@ class LogIndex {
     std::vector<Place> places;
     std::optional<ImagePlace> image = {};
     bool any_state = false;
+    bool any_image = false;
   };
   Result<void> add(const std::string& path);
   void find_frames();
