@@ -67,7 +67,8 @@ struct DetectedHand {
   /// Its joints if it is a hand of the other side. None, unless both sides are looked for and the networks cannot tell
   /// them apart.
   std::optional<DetectedJoints> other_joints = {};
-  LabelMap labels;  ///< labels of a window of about 0.34 m around the hand
+  LabelMap labels;         ///< labels of a window of about 0.34 m around the hand
+  bool skin_only = false;  ///< whether the networks saw only what has the colour of skin
 
   /// Whether there are joints of a hand of this side.
   bool may_be(Handedness of) const { return of == side || other_joints; }
@@ -86,8 +87,6 @@ struct Detection {
   /// A tracked hand that was examined again in an earlier frame (stages/detection/second_look.h), moved to where it is
   /// expected now. None in most frames.
   std::optional<DetectedHand> second_look;
-  /// Coarse labels that together cover the whole frame; empty if only windows were searched.
-  std::vector<LabelMap> frame_labels;
 };
 using DetectionPtr = std::shared_ptr<const Detection>;
 

@@ -81,8 +81,9 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
   stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
     if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);
-    const bool needs_labels = (*preprocessor)->needs_labels();
-    return (*preprocessor)->process(frame, feedback, detection->process(frame, feedback, needs_labels));
+    Preprocessor& preprocess = **preprocessor;
+    return preprocess.process(frame, feedback,
+                              detection->process(frame, feedback, preprocess.needs_labels(), preprocess.skin()));
   };
   stages.track = [tracker, feedback](HandObservations& observations) {
     if (feedback) tracker->couple_with(feedback->wait());

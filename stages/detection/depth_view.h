@@ -1,5 +1,6 @@
 #pragma once
 
+#include "observe/skin_model.h"
 #include "sensor/rgbd_frame.h"
 
 namespace barehand {
@@ -31,5 +32,7 @@ struct DepthView {
 /// Sets each pixel of `depth` to the depth [m] of the frame pixel nearest to it; 0 if that has no depth or lies outside
 /// the frame.
 void sample_depth(const RgbdFrame& frame, const DepthView& view, Image<float>& depth);
+/// Moves everything that does not have the colour of skin far away, in the depth of a view of a frame with colour.
+void keep_skin(const RgbdFrame& frame, const DepthView& view, const SkinModel& skin, Image<float>& depth);
 
 }  // namespace barehand

@@ -31,7 +31,7 @@ DetectionStage::DetectionStage(const DetectionParams& params, const std::string&
 }
 
 DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback,
-                                     bool needs_labels) {
+                                     bool needs_labels, const SkinModel* skin) {
   const RgbdFrame& frame = *shared;
   const bool valid =
       frame.camera.valid() && frame.depth.width() == frame.camera.width && frame.depth.height() == frame.camera.height;
@@ -42,8 +42,8 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   const auto tracked = std::ranges::count_if(feedback, is_tracked);
   const bool all_tracked = !feedback.empty() && tracked == static_cast<std::ptrdiff_t>(feedback.size());
   const bool whole = !all_tracked && turn % (tracked ? std::max(kBesideTracked, params_.every) : params_.every) == 0;
-  const bool colour = has_colour(frame) && !needs_labels;
-  const bool windows = tracked && turn % params_.every_tracked == 0 && !colour;
+  const bool colour = has_colour(frame);
+  const bool windows = tracked && turn % params_.every_tracked == 0 && (!colour || needs_labels);
   const auto look = second_look_.next(shared, feedback, *detector_, workers_);
   if (look && !*look && all_tracked && !windows) return nullptr;
 
@@ -54,7 +54,7 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   if (!look)
     detection = tl::unexpected(look.error());
   else if (whole)
-    detection = detector_->detect(frame, workers_, places_, side);
+    detection = detector_->detect(frame, workers_, places_, side, skin_of_search(colour ? skin : nullptr));
   if (windows && detection) detection = detector_->detect_at(frame, places_, workers_, std::move(*detection));
 
   // After an error, continue without the networks.
@@ -70,6 +70,13 @@ DetectionPtr DetectionStage::process(const FramePtr& shared, std::span<const Han
   detection->whole_frame = !all_tracked;
   detection->second_look = *look;
   return std::make_shared<const Detection>(std::move(*detection));
+}
+
+/// Where objects and arms hide a hand's shape, its colour shows it, and where colour misleads, depth does.
+const SkinModel* DetectionStage::skin_of_search(const SkinModel* skin) {
+  const bool skin_only = skin && skin_next_;
+  skin_next_ = skin && !skin_next_;
+  return skin_only ? skin : nullptr;
 }
 
 std::optional<Handedness> DetectionStage::wanted(std::span<const HandEstimatePtr> feedback) const {

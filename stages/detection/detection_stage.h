@@ -28,12 +28,16 @@ class DetectionStage {
   /// `feedback`: the estimates of an earlier frame, one per hand, that preprocessing receives, too; empty while nothing
   /// is tracked. Returns null if the networks are off or not needed in this frame, or if the frame is invalid; null
   /// contains no information about where hands are.
-  /// `needs_labels`: whether colour, if there is any, is not enough (Preprocessor::needs_labels).
-  DetectionPtr process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback, bool needs_labels = false);
+  /// `needs_labels`: whether colour, if there is any, is not enough (Preprocessor::needs_labels). `skin`: if given,
+  /// every other search of a whole frame with colour looks at skin only.
+  DetectionPtr process(const FramePtr& shared, std::span<const HandEstimatePtr> feedback, bool needs_labels = false,
+                       const SkinModel* skin = nullptr);
 
  private:
   // The side of the hand that is searched for, if it is only one.
   std::optional<Handedness> wanted(std::span<const HandEstimatePtr> feedback) const;
+  // The model of skin for this search of a whole frame, which is null in every other search.
+  const SkinModel* skin_of_search(const SkinModel* skin);
   // Fills `places_` with the places where the tracked hands are expected.
   void expect_tracked(const RgbdFrame& frame, std::span<const HandEstimatePtr> feedback);
 
@@ -43,6 +47,7 @@ class DetectionStage {
   std::optional<Handedness> only_;
   std::optional<HandDetector> detector_;  // none: detection is off
   std::int64_t frame_ = 0;                // number of valid frames so far
+  bool skin_next_ = false;                // whether the next search of a frame with colour looks at skin only
   SecondLook second_look_;                // after the detector that it uses
   std::vector<ExpectedHand> places_;      // scratch
 };

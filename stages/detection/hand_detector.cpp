@@ -71,14 +71,14 @@ void HandDetector::add_palms(const RgbdFrame& frame, const DepthView& view, cons
   }
 }
 
-Result<void> HandDetector::find_palms(const RgbdFrame& frame, Workers& workers, Detection& out) {
+Result<void> HandDetector::find_palms(const RgbdFrame& frame, const SkinModel* skin, Workers& workers) {
   palms_.clear();
   for (const DepthView& view : frame_views(frame.camera)) {
     sample_depth(frame, view, depth_);
+    if (skin) keep_skin(frame, view, *skin, depth_);
     fill_full(depth_, input_);
     const auto output = full_.run(input_, workers);
     if (!output) return tl::unexpected(output.error());
-    read_labels(*output, view, false, out.frame_labels.emplace_back());
     add_palms(frame, view, *output);
   }
   std::ranges::stable_sort(palms_, std::greater<>(), &Palm::probability);
@@ -115,29 +115,30 @@ void HandDetector::choose_palms(const Detection& out) {
 }
 
 Result<Detection> HandDetector::detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked,
-                                       std::optional<Handedness> wanted) {
+                                       std::optional<Handedness> wanted, const SkinModel* skin) {
   Detection out;
   out.whole_frame = true;
-  if (const auto found = find_palms(frame, workers, out); !found) return tl::unexpected(found.error());
+  if (const auto found = find_palms(frame, skin, workers); !found) return tl::unexpected(found.error());
 
   // Leave out palms that earlier searches found to be unlikely, except near a tracked hand.
-  known_.begin_search();
+  PalmHistory& known = known_[skin ? 1 : 0];
+  known.begin_search();
   std::erase_if(palms_, [&](const Palm& palm) {
     const auto here = [&](const ExpectedHand& hand) { return (hand.centre - palm.centre).norm() < kApart; };
-    return std::ranges::none_of(tracked, here) && known_.may_skip(palm.centre, palm.probability);
+    return std::ranges::none_of(tracked, here) && known.may_skip(palm.centre, palm.probability);
   });
 
   for (next_ = 0; next_ < palms_.size() && out.hands.size() < kMostHands;) {
     // Examine the next palms in one batch.
     choose_palms(out);
     places_.clear();
-    for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}, wanted});
+    for (const Palm& palm : chosen_) places_.push_back({palm.centre, {}, wanted, skin});
     if (const auto done = examine(frame, places_, workers); !done) return tl::unexpected(done.error());
 
     // Add the hands that were found.
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       auto& hand = *found_[i];
-      known_.examined(chosen_[i].centre, chosen_[i].probability, hand ? &*hand : nullptr);
+      known.examined(chosen_[i].centre, chosen_[i].probability, hand ? &*hand : nullptr);
       if (out.hands.size() < kMostHands) add(std::move(hand), chosen_[i].probability, kApart, out);
     }
   }

@@ -29,10 +29,11 @@ class HandDetector {
 
   /// Finds all hands of the frame, at most kMostHands. What has long been unlikely to be a hand is found in every
   /// second to fifth search only (PalmHistory); the places of `tracked` hands never wait. `wanted`: the side that is
-  /// looked for, if only one is: a hand of which the networks are not sure is read as one of that side. Error: a
-  /// network returns values that are not finite.
+  /// looked for, if only one is: a hand of which the networks are not sure is read as one of that side. `skin`: if
+  /// given, only what has the colour of skin is looked at; the frame must have colour then. Error: a network returns
+  /// values that are not finite.
   Result<Detection> detect(const RgbdFrame& frame, Workers& workers, std::span<const ExpectedHand> tracked = {},
-                           std::optional<Handedness> wanted = std::nullopt);
+                           std::optional<Handedness> wanted = std::nullopt, const SkinModel* skin = nullptr);
 
   /// Looks for the tracked hands where they are expected, unless they are already in `found`, the result of detect()
   /// for this frame. Returns that with the hands that are seen there.
@@ -57,7 +58,7 @@ class HandDetector {
     double probability;
   };
   HandDetector(Network full, std::vector<WindowExaminer> examiners, std::string version, const DetectionParams& params);
-  Result<void> find_palms(const RgbdFrame& frame, Workers& workers, Detection& out);
+  Result<void> find_palms(const RgbdFrame& frame, const SkinModel* skin, Workers& workers);
   void add_palms(const RgbdFrame& frame, const DepthView& view, const NetworkOutput& output);
   /// Chooses up to kAtOnce of the next palms, which are certainly not of the same hand.
   void choose_palms(const Detection& out);
@@ -72,7 +73,7 @@ class HandDetector {
   std::vector<WindowExaminer> examiners_;  // kAtOnce, and one for examine_beside()
   std::string version_;
   DetectionParams params_;
-  PalmHistory known_;
+  std::array<PalmHistory, 2> known_;  // of searches of everything, and of skin only
 
   // Scratch of the current frame.
   std::vector<Palm> palms_;                                         // most probable first

@@ -40,11 +40,12 @@ Handedness side_to_read(double right_log_odds, const ExpectedHand& place) {
 /// Runs the second network on the window around `centre`, and reads the joints as those of a hand of this side. For a
 /// left hand the window is mirrored, since the network was trained with right hands.
 Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre,
-                                                           Handedness side, Workers& workers) {
+                                                           Handedness side, const SkinModel* skin, Workers& workers) {
   // Run the network on the window.
   const bool mirrored = side == Handedness::left;
   const DepthView view = window_around(centre, frame.camera);
   sample_depth(frame, view, depth_);
+  if (skin) keep_skin(frame, view, *skin, depth_);
   fill_crop(depth_, centre.z(), mirrored, input_);
   const auto output = crop_.run(input_, workers);
   if (!output) return tl::unexpected(output.error());
@@ -66,7 +67,7 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
 /// the other side, or of either.
 Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& frame, const ExpectedHand& place,
                                                             Workers& workers) {
-  auto window = run_network(frame, place.centre, side_to_read(0, place), workers);
+  auto window = run_network(frame, place.centre, side_to_read(0, place), place.skin, workers);
   if (!window) return tl::unexpected(window.error());
 
   // Examine a second window if the hand is off the centre, or if it is of the other side.
@@ -74,7 +75,7 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   const bool aside = (window->hand.centre - place.centre).norm() > kRecentre;
   if (aside || side != window->hand.side) {
     if (window->hand.centre.z() <= 0) return std::nullopt;
-    window = run_network(frame, window->hand.centre, side, workers);
+    window = run_network(frame, window->hand.centre, side, place.skin, workers);
     if (!window) return tl::unexpected(window.error());
     side = side_to_read(window->hand.right_log_odds, place);
   }
@@ -83,7 +84,7 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   // other side, too. The average of the log odds decides the side, and the window for that side gives the joints.
   const bool either = !place.side && !place.wanted && std::abs(window->hand.right_log_odds) < kToldSide;
   if ((either || side != window->hand.side) && window->hand.centre.z() > 0) {
-    auto other = run_network(frame, window->hand.centre, opposite(window->hand.side), workers);
+    auto other = run_network(frame, window->hand.centre, opposite(window->hand.side), place.skin, workers);
     if (!other) return tl::unexpected(other.error());
     const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
     if (side_to_read(right, place) == other->hand.side) std::swap(*window, *other);
@@ -91,6 +92,7 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
     if (either && std::abs(right) < kToldSide) window->hand.other_joints = other->hand.joints;
   }
   if (window->hand_area < kSmallestHand) return std::nullopt;
+  window->hand.skin_only = place.skin != nullptr;
   return std::move(window->hand);
 }
 

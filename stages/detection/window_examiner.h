@@ -24,7 +24,8 @@ class WindowExaminer {
     DetectedHand hand;
     double hand_area = 0;  // area of the pixels labelled as hand, projected onto a plane facing the camera [m^2]
   };
-  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, Handedness side, Workers& workers);
+  Result<Window> run_network(const RgbdFrame& frame, const Eigen::Vector3d& centre, Handedness side,
+                             const SkinModel* skin, Workers& workers);
 
   Network crop_;
   Image<float> depth_;  // scratch: the depth image, resampled for the current window

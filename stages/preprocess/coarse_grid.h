@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
+#include "observe/skin_model.h"
 #include "sensor/rgbd_frame.h"
 #include "stages/preprocess/params.h"
-#include "stages/preprocess/skin_model.h"
 
 namespace barehand {
 

@@ -34,6 +34,8 @@ class Preprocessor {
   /// Whether colour, if there is any, does not tell a followed hand from what touches it, so that the next frame's
   /// detection should.
   bool needs_labels() const { return !params_.use_colour || locator_.colour_misleads(); }
+  /// The colour of skin as it was learned so far; null if colour is not used.
+  const SkinModel* skin() const { return params_.use_colour ? &skin_ : nullptr; }
 
  private:
   HandObservationPtr observe(const FramePtr& frame, const CoarseHand& hand, std::span<const CoarseHand> hands,

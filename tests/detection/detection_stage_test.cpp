@@ -1,5 +1,6 @@
 #include "stages/detection/detection_stage.h"
 
+#include "stages/detection/depth_view.h"
 #include "stages/detection/network_cues.h"
 #include "support/rendered_person.h"
 
@@ -119,6 +120,51 @@ TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {
   ASSERT_TRUE(between);
   EXPECT_TRUE(between->whole_frame);
   EXPECT_TRUE(between->hands.empty());
+}
+
+TEST_F(DetectionStageTest, EveryOtherSearchOfAFrameWithColourSeesSkinOnly) {
+  const SkinModel skin(0.08, 0.85);
+  DetectionStage searching = stage();
+  const auto next = [&] { return searching.process(frame_, {}, false, &skin)->hands; };
+
+  // A blue hand is seen by its depth alone.
+  paint({40, 60, 160});
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(next().size(), 1u);
+    EXPECT_TRUE(next().empty());
+  }
+
+  // A hand with the colour of skin is seen in every search.
+  for (std::size_t i = 0; i < frame_->colour.size(); ++i)
+    if (frame_->depth[i] < 700) frame_->colour[i] = {200, 150, 120};
+  for (const bool skin_only : {false, true, false, true}) {
+    const auto hands = next();
+    ASSERT_EQ(hands.size(), 1u);
+    EXPECT_EQ(hands[0].skin_only, skin_only);
+    EXPECT_LT((hands[0].centre - pose_[kPalm].t).norm(), 0.08);
+  }
+
+  // Grey shows no skin.
+  paint({120, 120, 120});
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(next().size(), 1u);
+}
+
+TEST(KeepSkin, WhatIsNotSkinIsFarAway) {
+  RgbdFrame frame;
+  frame.camera = {64, 48, 50, 50, 31.5, 23.5};
+  frame.depth.reset(64, 48, 600);
+  frame.depth.at(3, 3) = frame.depth.at(60, 40) = 0;
+  frame.colour.reset(64, 48, {40, 60, 160});
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 32; ++u) frame.colour.at(u, v) = {200, 150, 120};
+  const DepthView view(64, 48, 50, 31.5, 23.5, frame.camera);
+  Image<float> depth;
+  sample_depth(frame, view, depth);
+  keep_skin(frame, view, SkinModel(0, 0), depth);
+  EXPECT_FLOAT_EQ(depth.at(10, 20), 0.6f);
+  EXPECT_GT(depth.at(50, 20), 2);
+  EXPECT_EQ(depth.at(3, 3), 0);  // what was not measured stays so
+  EXPECT_EQ(depth.at(60, 40), 0);
 }
 
 TEST_F(DetectionStageTest, AFrameWithoutIntrinsicsIsLeftToPreprocessing) {

@@ -84,6 +84,26 @@ TEST_P(CuesOfDetection, APoseCountsThatExplainsTheDataAtTheJoints) {
       << "joints that are not seen may be anywhere";
 }
 
+TEST_P(CuesOfDetection, WhereOnlySkinIsSeenTheJointsCountAndNotTheScore) {
+  HandCues skin = kHand;
+  skin.skin_only = true;
+  EXPECT_GT(log_odds_of_hand(skin), log_odds_of_hand(kHand));
+
+  DetectedHand seen = detected();
+  seen.skin_only = true;
+  EXPECT_TRUE(hand_cues(seen, *profile_).skin_only);
+  RefinedPose refined;
+  refined.pose = pose_;
+  refined.score = 0.002;
+  refined.matched.fill(0.8);
+  const double good = log_odds_of_pose(refined, *profile_, seen);
+  RefinedPose bad = refined, elsewhere = refined;
+  bad.score = 0.006;
+  for (SE3& T : elsewhere.pose) T.t.x() += 0.04;
+  EXPECT_EQ(log_odds_of_pose(bad, *profile_, seen), good);
+  EXPECT_LT(log_odds_of_pose(elsewhere, *profile_, seen), good - 3);
+}
+
 TEST(HandEvidence, OneFrameCountsAsItIs) {
   HandEvidence evidence;
   EXPECT_EQ(evidence.add(1, kHere, 5), 5);

@@ -230,6 +230,26 @@ TEST_F(GivenStart, IsNoPoseWhereNoHandIsSeen) {
   EXPECT_EQ(next(HandObservation{})->status, TrackStatus::searching);
 }
 
+TEST_F(GivenStart, WhatIsHardlyAHandIsNotTakenForALostOne) {
+  tracker_.apply(StartAt{pose_});
+  ASSERT_EQ(next(*hand_)->status, TrackStatus::tracking);
+  for (int i = 0; i < 20; ++i) next(HandObservation{});
+  ASSERT_EQ(next(HandObservation{})->status, TrackStatus::lost);
+
+  // The networks see something that hangs down.
+  const HandPose elsewhere = test::turned(pose_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
+  HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), elsewhere);
+  const auto detect = [&](double side, double palm, float labels) {
+    seen.detected =
+        std::make_shared<const DetectedHand>(test::detected_hand(*profile_, elsewhere, side, 0.005, palm, labels));
+  };
+  detect(0.1, 0.2, 1);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(next(seen)->status, TrackStatus::lost);
+  detect(5, 0.7, 5);
+  next(seen);
+  EXPECT_EQ(next(seen)->status, TrackStatus::tracking);
+}
+
 TEST_F(GivenStart, EveryDecisionIsKept) {
   tracker_.apply(StartAt{pose_});
   EXPECT_TRUE(next(*hand_)->decisions.empty()) << "nothing stood against the given pose";

@@ -11,6 +11,9 @@ namespace {
 
 // Weights of the logistic model that tells hands from other objects, one for each cue besides the networks' outputs.
 constexpr double kBias = -1.0, kOfMisfit = -0.84, kOfScore = -1.57, kOfDistance = -2.3;
+// What differs where only the colour of skin was looked at: it is more probably a hand, but whatever has that colour is
+// explained well by some pose of a hand, so that only the distance tells one.
+constexpr double kOfSkin = 1.0, kOfPoseOnSkin = -2.0, kOfDistanceOnSkin = -3.45;
 // Lower limit of the misfit, because values below it carry no further information.
 constexpr double kLeastMisfit = 0.05;
 // Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
@@ -30,6 +33,7 @@ constexpr std::uint32_t kFaded = 100;  // number of frames after which a place i
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
   HandCues cues;
   cues.networks = network_cues(detected);
+  cues.skin_only = detected.skin_only;
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions.
@@ -39,7 +43,8 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 }
 
 double log_odds_of_hand(const HandCues& cues) {
-  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
+  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit)) +
+         (cues.skin_only ? kOfSkin : 0);
 }
 
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {
@@ -47,8 +52,9 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
   for (const double of_segment : refined.matched) matched += of_segment / kSegmentCount;
   const double distance =
       std::max(kLeastDistance, mean_distance(profile, refined.pose, detected.joints_of(profile.handedness)));
-  return kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore) +
-         kOfDistance * std::min(1.0, matched / kAllMatched) * std::log(distance / kReferenceDistance);
+  const double too_far = std::min(1.0, matched / kAllMatched) * std::log(distance / kReferenceDistance);
+  if (detected.skin_only) return kOfPoseOnSkin + kOfDistanceOnSkin * too_far;
+  return kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore) + kOfDistance * too_far;
 }
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {

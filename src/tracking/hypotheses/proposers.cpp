@@ -20,6 +20,7 @@ constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the rando
 constexpr double kPossibleHand = 2.5,  // below, the detection is ignored
     kProvenHand = 3.5,                 // from here on, with the evidence of the pose and earlier frames, it is a hand
     kCertainHand = 7.5;                // from here on, the networks alone suffice
+constexpr double kAwaited = 2.5;       // is added to the log odds while a lost hand is awaited
 
 }  // namespace
 
@@ -29,9 +30,11 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
   const TrackerParams& params = context_.params;
   if (static_cast<int>(observation.hand_pixels.size()) < params.loss.min_hand_pixels) return std::nullopt;
 
-  // A detection that does not belong to a hand followed before may be something other than a hand.
-  const DetectedHand* const unproven = track.was_followed() ? nullptr : observation.detected.get();
-  const double log_odds = unproven ? log_odds_of_hand(hand_cues(*unproven, *hand.profile)) : kCertainHand;
+  // What is detected may be something other than a hand.
+  const DetectedHand* const unproven = observation.detected.get();
+  double log_odds = kCertainHand;
+  if (unproven)
+    log_odds = log_odds_of_hand(hand_cues(*unproven, *hand.profile)) + (track.was_followed() ? kAwaited : 0);
   if (log_odds < kPossibleHand) {
     track.evidence.forget(unproven->centre);
     return std::nullopt;

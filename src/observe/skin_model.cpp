@@ -1,4 +1,4 @@
-#include "stages/preprocess/skin_model.h"
+#include "observe/skin_model.h"
 
 #include <algorithm>
 #include <cmath>
