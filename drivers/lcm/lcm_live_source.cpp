@@ -154,7 +154,7 @@ SourceEvent LcmLiveSource::take_next() {
 /// channels are dropped and no longer count as received.
 void LcmLiveSource::choose(const std::string& channel) {
   const std::lock_guard lock(mutex_);
-  if (!options_.channel.empty() || !chosen_.empty()) return;
+  if (!chosen_.empty()) return;
   chosen_ = channel;
   counts_.received -= static_cast<std::int64_t>(std::erase_if(packets_, [&](const Packet& packet) {
     if (packet.channel == chosen_) return false;

@@ -19,7 +19,7 @@ namespace barehand {
 // A source of the frames that arrive on a live LCM bus.
 
 struct LcmLiveOptions {
-  std::string channel = {};  ///< glob; "": the first channel like *RGBD_FRAME on which a frame arrives
+  std::string channel = {};  ///< glob of which the first channel on which a frame arrives counts; "": *RGBD_FRAME
   GivenIntrinsics foreign = {};
   std::size_t capacity = 1;  ///< largest number of waiting messages: 1 to track the newest, more to record all
 };
@@ -85,7 +85,7 @@ class LcmLiveSource : public FrameSource {
     int late = 0;           // messages in a row that came after a newer one
   };
   std::map<std::string, Sequence> sequences_;
-  std::string chosen_;  ///< the only channel that is accepted; "": every channel of the pattern
+  std::string chosen_;  ///< the only channel that is accepted; "": none has brought a frame yet
   std::string other_;   ///< another channel on which frames arrived; "": there is none
   bool told_of_other_ = false;
 

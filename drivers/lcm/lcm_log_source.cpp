@@ -82,11 +82,13 @@ Result<void> LcmLogSource::open_files() {
 Result<void> LcmLogSource::choose() {
   const std::string& pattern = options_.channel;
 
-  // Collect all channels, and those that carry frames.
+  // Collect all channels, and those that carry frames and match.
   std::set<std::string> all, with_frames;
   for (const Event& event : frames_) {
-    all.insert(event.entry.channel);
-    if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
+    const std::string& channel = event.entry.channel;
+    all.insert(channel);
+    if (carries_frames(event.entry.hash) && (pattern.empty() || matches_glob(pattern, channel)))
+      with_frames.insert(channel);
   }
 
   // Keep the events of the channels that match the pattern, or all frames if there is none.
@@ -97,12 +99,12 @@ Result<void> LcmLogSource::choose() {
     return is_name ? channel != pattern : !matches_glob(pattern, channel);
   });
 
-  // Report it if the channel is ambiguous or nothing matches.
+  // Report it if the channel is ambiguous or nothing matches: frames of two sensors are not one sequence.
   if (pattern.empty() && with_frames.empty()) {
     return fail("the log holds no frames; its channels are " + names(all), path_,
                 "known types are barehand.rgbd_frame_t, kinect.frame_msg_t and bot_core.images_t");
   }
-  if (pattern.empty() && with_frames.size() > 1) {
+  if (!is_name && with_frames.size() > 1) {
     return fail("the log holds frames on several channels: " + names(with_frames), path_,
                 how_to_choose(*with_frames.begin()));
   }

@@ -116,8 +116,12 @@ TEST_F(LcmLog, AGlobChoosesTheChannel) {
 TEST_F(LcmLog, SeveralChannelsWithFramesNeedAChoice) {
   append_frames(1, "LEFT_RGBD_FRAME");
   append_frames(1, "RIGHT_RGBD_FRAME");
-  const std::string message = play();
-  EXPECT_NE(message.find("\"LEFT_RGBD_FRAME\", \"RIGHT_RGBD_FRAME\""), std::string::npos) << message;
+  append_frames(1, "OTHER");
+  for (const char* pattern : {"", "*RGBD_FRAME"}) {
+    const std::string message = play({.channel = pattern});
+    EXPECT_NE(message.find("\"LEFT_RGBD_FRAME\", "), std::string::npos) << message;
+    EXPECT_NE(message.find("\"RIGHT_RGBD_FRAME\""), std::string::npos) << message;
+  }
 }
 
 TEST_F(LcmLog, AChannelThatIsNotThereNamesThoseThatAre) {

@@ -39,6 +39,8 @@ TEST_F(CopyCommands, ConvertGoesFromFolderToLogAndBack) {
   EXPECT_EQ(there.exit_code, 0) << there.output;
   EXPECT_THAT(there.output, HasSubstr("3 frames written"));
   EXPECT_EQ(barehand({"convert", folder_ / "a.lcmlog", folder_ / "back", "--step", "2"}).exit_code, 0);
+  EXPECT_EQ(barehand({"convert", folder_ / "a.lcmlog", folder_ / "reversed", "--step", "-1"}).exit_code, 2)
+      << "its times would decrease, so that it could not be played";
   EXPECT_EQ(FolderSource::open(folder_ / "back").value()->remaining(), 2);
 }
 

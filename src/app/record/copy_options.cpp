@@ -12,7 +12,7 @@ void add_copy_options(CLI::App& command, CopyRequest& request) {
 
   // Add options for which frames are copied.
   command.add_option("--start", r.source.start, "first frame of a recording");
-  command.add_option("--step", r.source.step, "every N-th frame; negative runs backwards")->capture_default_str();
+  command.add_option("--step", r.source.step, "every N-th frame")->check(CLI::PositiveNumber)->capture_default_str();
   command.add_option("--frames", r.frames, "stop after this many frames")->check(CLI::Range(1, 1'000'000'000));
   command.add_option("--channel", r.source.channel,
                      "glob of the LCM channels, or of an MCAP file's topics with depth; default: live the first of "
