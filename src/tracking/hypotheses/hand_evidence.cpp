@@ -13,7 +13,7 @@ namespace {
 constexpr double kBias = -1.0, kOfMisfit = -0.84, kOfScore = -1.57, kOfDistance = -2.3;
 // What differs where only the colour of skin was looked at: it is more probably a hand, but whatever has that colour is
 // explained well by some pose of a hand, so that only the distance tells one.
-constexpr double kOfSkin = 1.0, kOfPoseOnSkin = -2.5, kOfDistanceOnSkin = -3.45;
+constexpr double kOfSkin = 0.5, kOfPoseOnSkin = -2.0, kOfDistanceOnSkin = -3.45;
 // Lower limit of the misfit, because values below it carry no further information.
 constexpr double kLeastMisfit = 0.05;
 // Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
