@@ -82,14 +82,8 @@ Result<void> LcmLogSource::open_files() {
 Result<void> LcmLogSource::choose() {
   const std::string& pattern = options_.channel;
 
-  // Collect all channels, and those that carry frames and match.
-  std::set<std::string> all, with_frames;
-  for (const Event& event : frames_) {
-    const std::string& channel = event.entry.channel;
-    all.insert(channel);
-    if (carries_frames(event.entry.hash) && (pattern.empty() || matches_glob(pattern, channel)))
-      with_frames.insert(channel);
-  }
+  std::set<std::string> all;
+  for (const Event& event : frames_) all.insert(event.entry.channel);
 
   // Keep the events of the channels that match the pattern, or all frames if there is none.
   const bool is_name = all.contains(pattern);
@@ -98,6 +92,9 @@ Result<void> LcmLogSource::choose() {
     if (pattern.empty()) return !carries_frames(event.entry.hash);
     return is_name ? channel != pattern : !matches_glob(pattern, channel);
   });
+  std::set<std::string> with_frames;
+  for (const Event& event : frames_)
+    if (carries_frames(event.entry.hash)) with_frames.insert(event.entry.channel);
 
   // Report it if the channel is ambiguous or nothing matches: frames of two sensors are not one sequence.
   if (pattern.empty() && with_frames.empty()) {
