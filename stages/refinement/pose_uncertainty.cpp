@@ -21,11 +21,14 @@ constexpr double kRangeDeviation = 0.2887;  // standard deviation of a uniform d
 constexpr double kAnywhere = 1.0;           // standard deviation of the pose of a palm that no data shows [m, rad]
 
 // Standard deviations of flexion, abduction and twist about their estimates [rad]; `hidden_for`: time without data
-// [s].
-Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const JointLimits& limits, double hidden_for) {
+// [s]; `beyond`: fraction of the segment beyond the border of the image. What hides a segment inside the image is held
+// by the hand or in its way; beyond the border, it moves twice as far.
+Vector3d spread(const UncertaintyParams& p, const EnergyParams& energy, const JointLimits& limits, double hidden_for,
+                double beyond) {
   const double twist = energy.sigma_angle_deg * kDegree;
-  const double moved = std::hypot(p.just_hidden_deg, p.growth_deg * std::sqrt(hidden_for)) * kDegree;
-  const double share = p.range_share * kRangeDeviation;
+  const double freedom = 1 + beyond;
+  const double moved = freedom * std::hypot(p.just_hidden_deg, p.growth_deg * std::sqrt(hidden_for)) * kDegree;
+  const double share = freedom * p.range_share * kRangeDeviation;
   const double flexion = std::min(moved, share * (limits.flexion_hi - limits.flexion_lo));
   const double abduction = std::min(moved, share * (limits.abduction_hi - limits.abduction_lo));
   return {std::max(flexion, twist), std::max(abduction, twist), twist};
@@ -75,7 +78,8 @@ std::array<Matrix6d, kSegmentCount> PoseUncertainty::covariance(const HandProfil
     const bool moves = hidden[s] && !refined.holds[finger_of(s)].firm();
     hidden_for_[s] = moves ? hidden_for_[s] + dt : 0;
     // A visible segment is held by its data alone, so its joint is left free over its range.
-    const Vector3d deviation = spread(params_, energy_, limits[s], hidden[s] ? hidden_for_[s] : kNeverSeen);
+    const Vector3d deviation =
+        spread(params_, energy_, limits[s], hidden[s] ? hidden_for_[s] : kNeverSeen, hidden[s] ? refined.beyond[s] : 0);
     const JointLinearisation joint = linearise_joint(profile, refined.pose, s);
     hold_joint(joint, s, deviation, energy_.sigma_gap, tree);
   }

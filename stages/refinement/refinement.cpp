@@ -80,6 +80,7 @@ void Refinement::summarise(const Workspace& work, RefinedPose& result) const {
   for (int s = 0; s < kSegmentCount; ++s) {
     const double projected = std::max(1, work.rendered.projected[s]);
     result.visible[s] = std::min(1.0, work.comparison.visible[s] / projected);
+    result.beyond[s] = std::min(1.0, work.rendered.beyond[s] / projected);
     result.matched[s] = std::min(1.0, work.comparison.matched[s] / projected);
   }
 }

@@ -47,6 +47,7 @@ struct RefinedPose {
   double score = 0;                             ///< ModelComparison::score [m]
   std::array<double, kSegmentCount> visible{};  ///< fraction of the projected skin that is front-most
   std::array<double, kSegmentCount> matched{};  ///< fraction of the projected skin that agrees with hand data
+  std::array<double, kSegmentCount> beyond{};   ///< fraction of the projected skin beyond the border of the image
   std::array<FingerHold, kFingerCount> holds;   ///< what the objects that couple with the hand say; else empty
   GaussianTree evidence;  ///< normal equations of the data alone at the last step; zero if no step was taken
 };

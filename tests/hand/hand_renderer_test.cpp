@@ -65,5 +65,33 @@ TEST(RenderHand, CountsHiddenSkinAsProjected) {
   EXPECT_LT(front[proximal], rendered.projected[proximal] / 2);
 }
 
+TEST(RenderHand, CountsSkinBeyondTheBorderAsProjected) {
+  const auto profile = test::adult_hand();
+  const Skin skin = make_blended_skin(*profile, 0.005);
+  const HandPose pose = test::facing_pose(*profile, 0.45);
+
+  // Render the whole hand, then with the border of the image across it, which the grid reaches or not.
+  RenderedHand whole, cut;
+  render_hand(skin, pose, kCamera, {0, 0, 1, 320, 240}, whole);
+  Intrinsics narrow = kCamera;
+  narrow.width = 160;
+  for (const int columns : {160, 100}) {
+    render_hand(skin, pose, narrow, {0, 0, 1, columns, 240}, cut);
+    int mostly_beyond = 0;
+    for (int s = 0; s < kSegmentCount; ++s) {
+      // Triangles on the border are counted roughly. A grid that ends before it leaves out some skin inside the image.
+      const double tolerance = 10 + 0.1 * whole.projected[s];
+      EXPECT_LT(cut.projected[s], whole.projected[s] + tolerance) << s;
+      if (columns == narrow.width) {
+        EXPECT_GT(cut.projected[s], whole.projected[s] - tolerance) << s;
+      }
+      EXPECT_EQ(whole.beyond[s], 0) << s;
+      mostly_beyond += cut.beyond[s] > 0.9f * cut.projected[s];
+    }
+    EXPECT_GE(mostly_beyond, 6) << "two fingers";
+    EXPECT_LE(mostly_beyond, 10);
+  }
+}
+
 }  // namespace
 }  // namespace barehand

@@ -71,6 +71,19 @@ TEST_F(PoseUncertaintyTest, AHiddenFingerIsKnownTheLessTheLongerItIsHidden) {
   EXPECT_LT(tip_deviation(open_), 1.1 * seen) << "seen again";
 }
 
+TEST_F(PoseUncertaintyTest, AFingerBeyondTheBorderMovesFartherThanOneThatIsCovered) {
+  const double seen = tip_deviation(open_), covered = tip_deviation(covered_);
+  RefinedPose beyond = covered_;
+  beyond.beyond.fill(1);
+  tip_deviation(open_);
+  EXPECT_GT(tip_deviation(beyond), 1.3 * covered);
+
+  // What is seen of a finger counts as before.
+  beyond = open_;
+  beyond.beyond.fill(0.5);
+  EXPECT_NEAR(tip_deviation(beyond), seen, 1e-9);
+}
+
 TEST_F(PoseUncertaintyTest, NothingIsKnownOfAFingerThatWasNeverSeen) {
   tip_deviation(open_);
   const double just_hidden = tip_deviation(covered_);

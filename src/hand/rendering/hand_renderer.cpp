@@ -45,6 +45,8 @@ class Rasteriser {
   Rasteriser(const Skin& skin, const Intrinsics& camera, RenderedHand& out) : skin_(skin), out_(out) {
     const CellGrid& g = out.grid;
     const float inverse_stride = 1.0f / g.stride;
+    first_ = {-g.u0 * inverse_stride, -g.v0 * inverse_stride};
+    last_ = {(camera.width - 1 - g.u0) * inverse_stride, (camera.height - 1 - g.v0) * inverse_stride};
     out.in_grid.resize(out.position.size());
     for (std::size_t i = 0; i < out.in_grid.size(); ++i) {
       const Vector3f& p = out.position[i];
@@ -64,6 +66,10 @@ class Rasteriser {
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     const Vertex low = a.min(b).min(c), high = a.max(b).max(c);
     if (!(area < 0) || low.w() < kNear) return;
+
+    // Note its area if it lies beyond the border of the image.
+    const Eigen::Array2f centre = (a + b + c).head<2>() / 3;
+    if ((centre < first_).any() || (centre > last_).any()) out_.beyond[skin_.vertices[t[0]].a] -= area / 2;
 
     // Draw the cells within the triangle's bounding box, one strip of columns after the other.
     const Eigen::Array4i first = low.ceil().cast<int>(), last = high.floor().cast<int>();
@@ -157,7 +163,8 @@ class Rasteriser {
   }
 
   const Skin& skin_;
-  RenderedHand& out_;  // depth holds 1/z while drawing; 0 where nothing was drawn yet
+  Eigen::Array2f first_, last_;  // first and last pixel of the image, in cells of the grid
+  RenderedHand& out_;            // depth holds 1/z while drawing; 0 where nothing was drawn yet
 };
 
 }  // namespace
@@ -169,6 +176,7 @@ void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camer
   out.depth.reset(grid.width, grid.height, 0.0f);
   out.vertex.reset(grid.width, grid.height, -1);
   out.projected.fill(0);
+  out.beyond.fill(0);
 
   // Pose the skin.
   pose_skin(skin, pose, out.position);
@@ -178,6 +186,7 @@ void render_hand(const Skin& skin, const HandPose& pose, const Intrinsics& camer
   // Draw all triangles, then turn the inverse depth into depth.
   Rasteriser rasteriser(skin, camera, out);
   for (const auto& t : skin.triangles) rasteriser.draw(t);
+  for (int s = 0; s < kSegmentCount; ++s) out.projected[s] += static_cast<int>(std::lround(out.beyond[s]));
   for (std::size_t i = 0; i < out.depth.size(); ++i) out.depth[i] = out.depth[i] > 0 ? 1.0f / out.depth[i] : 0.0f;
 }
 

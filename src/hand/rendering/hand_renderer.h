@@ -24,7 +24,9 @@ struct RenderedHand {
   Image<std::int32_t> vertex;  ///< skin vertex with the largest barycentric weight in the cell; -1 = no skin
   std::vector<Eigen::Vector3f> position, normal;  ///< of every skin vertex, camera frame [m]; normals may be left out
   std::vector<Eigen::Array4f> in_grid;            ///< cell i, j, 1/z [1/m] and z [m] of every skin vertex
-  std::array<int, kSegmentCount> projected{};     ///< cells covered by the segment's camera-facing skin, hidden or not
+  /// Cells covered by the segment's camera-facing skin, hidden or not, in the grid or beyond the border of the image.
+  std::array<int, kSegmentCount> projected{};
+  std::array<float, kSegmentCount> beyond{};  ///< those of `projected` that lie beyond the border of the image
 };
 
 /// Whether render_hand() computes the normals, which are not needed for a score.
