@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "stages/pose_prior/crossed_fingers.h"
+#include "stages/search/cut_hand.h"
 #include "stages/search/inverse_kinematics.h"
 #include "tracking/hypotheses/neutral_pose.h"
 #include "tracking/hypotheses/restart_consensus.h"
@@ -103,10 +104,15 @@ void Proposers::uncross_fingers(const HandObservation& observation, const HandMo
 /// Fits a pose to the detected joints by inverse kinematics, then refines it like every start pose.
 std::optional<Hypothesis> Proposers::detected(const HandObservation& observation, const HandModel& hand) const {
   if (!observation.detected) return std::nullopt;
-  const auto fit = fit_to_joints(*hand.profile, observation.detected->joints_of(hand.profile->handedness));
-  if (!fit) return std::nullopt;
-  auto best =
-      best_of(Origin::detected, observation, hand, {{"detected", fit->pose}}, context_.params.search_iterations);
+  const DetectedJoints& joints = observation.detected->joints_of(hand.profile->handedness);
+  std::vector<StartCandidate> starts;
+  const auto add = [&](const char* name, const DetectedJoints& of) {
+    if (const auto fit = fit_to_joints(*hand.profile, of)) starts.push_back({name, fit->pose});
+  };
+  add("detected", joints);
+  if (cut_by_border(joints, observation.frame->camera))
+    for (const DetectedJoints& others : with_fingers_moved(joints)) add("cut", others);
+  auto best = best_of(Origin::detected, observation, hand, starts, context_.params.search_iterations);
   set_neutral_joints(observation, hand, best);
   return best;
 }
