@@ -41,10 +41,10 @@ class Messages(unittest.TestCase):
         return np.frombuffer(zlib.decompress(message.depth), "<u2").reshape(message.height, message.width)
 
     def test_a_frame_has_what_was_given(self):
-        self.publisher.publish(DEPTH, COLOUR, CAMERA, 0.0001, utime=123)
+        self.publisher.publish(DEPTH, COLOUR, CAMERA, 0.0001, utime=1_700_000_000_000_123)
         self.publisher.publish(DEPTH, None, CAMERA)
         (channel, first), (_, second) = self.sent
-        self.assertEqual((channel, first.sensor, first.utime, first.seq, second.seq), ("DESK_RGBD_FRAME", "desk", 123, 0, 1))
+        self.assertEqual((channel, first.sensor, first.utime, first.seq, second.seq), ("DESK_RGBD_FRAME", "desk", 1_700_000_000_000_123, 0, 1))
         self.assertEqual((first.width, first.height, first.fx, first.fy, first.cx, first.cy), (4, 3, *CAMERA))
         self.assertEqual((first.depth_unit, zlib.decompress(first.depth)), (0.0001, DEPTH.astype("<u2").tobytes()))
         self.assertEqual((first.colour_encoding, first.colour), (first.COLOUR_RAW_RGB, COLOUR.tobytes()))
@@ -69,8 +69,16 @@ class Messages(unittest.TestCase):
                                  ("counts from -5", (DEPTH.astype(int) - 5, None, CAMERA)),
                                  ("65536", (DEPTH.astype(int) + 65525, None, CAMERA)),
                                  ("depth unit", (DEPTH, None, CAMERA, 1000)),
+                                 ("depth unit", (DEPTH, None, CAMERA, None)),
+                                 ("within 65.535 m; the first is 400", (DEPTH + 400.0, None, CAMERA)),
+                                 ("microseconds", (DEPTH, None, CAMERA, 0.001, 1_700_000_000.5)),
+                                 ("microseconds", (DEPTH, None, CAMERA, 0.001, 1_700_000_000_000_000_000)),
+                                 ("microseconds", (DEPTH, None, CAMERA, 0.001, np.nan)),
+                                 ("microseconds", (DEPTH, None, CAMERA, 0.001, "now")),
+                                 ("four numbers", (DEPTH, None, (525, 525, 1))),
+                                 ("four numbers", (DEPTH, None, (525, 525, "1", 1))),
                                  ("no camera", (DEPTH, None, (0, 525, 1, 1))),
-                                 ("no camera", (DEPTH, None, (525, np.nan, 1, 1))),
+                                 ("four numbers", (DEPTH, None, (525, np.nan, 1, 1))),
                                  ("uint8", (DEPTH, COLOUR[:2], CAMERA)), ("float64", (DEPTH, COLOUR / 255, CAMERA)),
                                  ("no JPEG", (DEPTH, b"GIF89a", CAMERA))]:
             with self.assertRaisesRegex(barehand.Error, words):

@@ -43,7 +43,7 @@ class RgbdPublisher:
     def publish(self, depth, colour, intrinsics, depth_unit=0.001, utime=None):
         """Sends one frame, like publish_rgbd()."""
         message = rgbd_frame_t()
-        message.utime = time.time_ns() // 1000 if utime is None else int(utime)
+        message.utime = time.time_ns() // 1000 if utime is None else _utime(utime)
         message.seq, message.sensor = self._seq, self._sensor
         counts = _counts(np.asarray(depth), depth_unit)
         message.height, message.width = counts.shape
@@ -57,15 +57,31 @@ class RgbdPublisher:
         self._seq += 1
 
 
+def _utime(utime):
+    if not _number(utime) or not 1e15 <= utime < 1e16:
+        raise Error(f"utime = {utime!r} is no time from 2001 on", _WHERE,
+                    "give microseconds since the epoch, or None for now")
+    return int(utime)
+
+
+def _number(value):
+    return isinstance(value, (int, float, np.number)) and np.isfinite(value)
+
+
 def _counts(depth, depth_unit):
     """Converts depth to little endian counts of 16 bits."""
-    if not 1e-7 <= depth_unit <= 1:
-        raise Error(f"a depth unit of {depth_unit} m is none", _WHERE, "give metres a count: 0.001 for millimetres")
+    if not _number(depth_unit) or not 1e-7 <= depth_unit <= 1:
+        raise Error(f"a depth unit of {depth_unit!r} m is none", _WHERE, "give metres a count: 0.001 for millimetres")
     if depth.ndim != 2 or depth.size == 0:
         raise Error(f"depth has the shape {depth.shape}", _WHERE, "give (height, width)")
     if np.issubdtype(depth.dtype, np.floating):
         counts = np.round(depth / depth_unit)
-        return np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # comparisons with NaN are false
+        kept = np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # comparisons with NaN are false
+        beyond = depth[np.isfinite(depth) & (counts > 65535)]
+        if beyond.size and not kept.any():
+            raise Error(f"no pixel of depth is within {65535 * depth_unit:g} m; the first is {beyond[0]:g}", _WHERE,
+                        "give floating point depth in metres, or integer counts of depth_unit")
+        return kept
     if not np.issubdtype(depth.dtype, np.integer):
         raise Error(f"depth is of the type {depth.dtype}", _WHERE, "give integer counts or floating point metres")
     if depth.dtype != np.uint16 and (depth.min() < 0 or depth.max() > 65535):
@@ -75,6 +91,9 @@ def _counts(depth, depth_unit):
 
 
 def _intrinsics(intrinsics):
+    intrinsics = tuple(intrinsics)
+    if len(intrinsics) != 4 or not all(_number(value) for value in intrinsics):
+        raise Error(f"the intrinsics are {intrinsics}", _WHERE, "give the four numbers fx, fy, cx, cy in pixels")
     fx, fy, cx, cy = (float(value) for value in intrinsics)
     if not all(1 <= f <= 1e5 for f in (fx, fy)) or not all(abs(c) <= 1e5 for c in (cx, cy)):
         raise Error(f"no camera has fx, fy, cx, cy = {fx}, {fy}, {cx}, {cy}", _WHERE, "give pixels, in this order")
