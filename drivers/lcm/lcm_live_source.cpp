@@ -2,6 +2,7 @@
 #include "drivers/lcm/lcm_live_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "barehand/rgbd_frame_t.hpp"
 #include "core/quote.h"
@@ -48,11 +49,14 @@ void LcmLiveSource::receive(const std::string& channel, WireBytes message) {
 }
 
 void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
-  // If the number decreases by more messages, or several times in a row, the sender was restarted.
-  constexpr std::int64_t kReordered = 32;
+  // If the number decreases by more messages, or several times in a row, the sender was restarted. So it was if the
+  // number increases by more than comes in some minutes.
+  constexpr std::int64_t kReordered = 32, kFarthest = 10'000;
   constexpr int kLateInARow = 3;
   Sequence& numbers = sequences_.try_emplace(channel, Sequence{seq}).first->second;
+  if (!numbers.counts) return;
   const std::int64_t step = seq - numbers.last;
+  ++numbers.since_jump;
 
   // A late message may have been counted as lost.
   if (step < 0 && step > -kReordered && ++numbers.late < kLateInARow) {
@@ -63,11 +67,21 @@ void LcmLiveSource::count_lost(const std::string& channel, std::int64_t seq) {
   }
 
   // Count the numbers that were skipped.
-  const std::int64_t skipped = std::max<std::int64_t>(0, step - 1);
+  const bool jumped = step < 0 || step > kFarthest;
+  const std::int64_t skipped = jumped ? 0 : std::max<std::int64_t>(0, step - 1);
   numbers.lost += skipped;
   counts_.lost += skipped;
   numbers.last = seq;
   numbers.late = 0;
+
+  // Numbers that jump again and again come from several senders, or are no count.
+  constexpr int kClose = 10, kMostJumps = 3;
+  if (!jumped) return;
+  numbers.jumps = numbers.since_jump <= kClose ? numbers.jumps + 1 : 1;
+  numbers.since_jump = 0;
+  if (numbers.jumps <= kMostJumps) return;
+  counts_.lost -= std::exchange(numbers.lost, 0);
+  numbers.counts = false;
 }
 
 SourceEvent LcmLiveSource::next(std::chrono::milliseconds patience) {
@@ -109,6 +123,7 @@ SourceEvent LcmLiveSource::decode_packet(const Packet& packet) {
   // Check the order of the frames of this channel, and that they come from one sender.
   choose(packet.channel);
   tell_of_senders(packet.channel, **frame);
+  tell_of_jumps(packet.channel);
   FrameOrder& order = orders_.try_emplace(packet.channel, StampUnit::microseconds).first->second;
   const auto number = order.number((*frame)->utime, (*frame)->number);
   for (const std::string& warning : order.take_warnings())
@@ -142,6 +157,15 @@ void LcmLiveSource::tell_of_senders(const std::string& channel, const RgbdFrame&
   to_come_.push_back(SourceNotice{{"frames of " + name(frame.sensor, width, height) + " come on the channel of " +
                                        name(first.sensor, first.width, first.height),
                                    name_of(channel), "give every sensor a channel of its own"}});
+}
+
+/// Reports once if the numbers of a channel do not count its frames.
+void LcmLiveSource::tell_of_jumps(const std::string& channel) {
+  const std::lock_guard lock(mutex_);
+  const auto found = sequences_.find(channel);
+  if (found == sequences_.end() || found->second.counts || std::exchange(found->second.told, true)) return;
+  to_come_.push_back(SourceNotice{{"the numbers (seq) of the frames jump, so that lost frames are not counted",
+                                   name_of(channel), "let one program alone send on the channel, and count up by 1"}});
 }
 
 SourceEvent LcmLiveSource::take_next() {

@@ -64,6 +64,7 @@ class LcmLiveSource : public FrameSource {
   SourceEvent take_next();
   void choose(const std::string& channel);
   void tell_of_senders(const std::string& channel, const RgbdFrame& frame);
+  void tell_of_jumps(const std::string& channel);
   std::string pattern() const { return options_.channel.empty() ? "*RGBD_FRAME" : options_.channel; }
   std::string name_of(const std::string& channel) const { return "lcm:" + bus_->url() + " " + channel; }
 
@@ -83,6 +84,10 @@ class LcmLiveSource : public FrameSource {
     std::int64_t last;      // newest number
     std::int64_t lost = 0;  // numbers that did not come
     int late = 0;           // messages in a row that came after a newer one
+    int since_jump = 0;     // messages since the numbers jumped last
+    int jumps = 0;          // jumps that followed one another closely
+    bool counts = true;     // false: the numbers jump too often to tell what is lost
+    bool told = false;      // whether that has been reported
   };
   std::map<std::string, Sequence> sequences_;
   std::string chosen_;  ///< the only channel that is accepted; "": none has brought a frame yet

@@ -103,7 +103,8 @@ Result<std::int64_t> FrameOrder::number(std::int64_t utime, std::int64_t number)
   if (begun_ && utime <= last_utime_) {
     if (last_utime_ - utime < kRestart) {
       ++unused_;
-      return fail("its time is not later than that of the frame before");
+      const char* const remedy = utime == last_utime_ ? "every frame needs a time of its own" : "";
+      return fail("its time is not later than that of the frame before", "", remedy);
     }
     check_restart(utime, number);
   } else if (begun_ && !steps_checked_) {

@@ -87,6 +87,27 @@ TEST_F(LcmLive, ASenderThatRepeatsAShortClipLosesNothing) {
   EXPECT_EQ(source_.counts().lost, 2) << "6 and 7";
 }
 
+TEST_F(LcmLive, NumbersThatJumpAgainAndAgainAreNotCounted) {
+  // Two programs that send on one channel.
+  for (const int number : {100, 5000, 101, 5001, 102, 5002, 103, 5003, 104}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(9);
+  EXPECT_EQ(source_.counts().lost, 0);
+  const SourceEvent notice = source_.next(kLong);
+  ASSERT_TRUE(std::holds_alternative<SourceNotice>(notice));
+  EXPECT_THAT(std::get<SourceNotice>(notice).error.message(), testing::HasSubstr("lost frames are not counted"));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong)));
+
+  send("RGBD_FRAME", frame_bytes(5004));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source_.next(kLong))) << "said once";
+  EXPECT_EQ(source_.counts().lost, 0);
+}
+
+TEST_F(LcmLive, AFarJumpLosesNothing) {
+  for (const int number : {1, 2, 1'700'000'000, 1'700'000'002}) send("RGBD_FRAME", frame_bytes(number));
+  wait_received(4);
+  EXPECT_EQ(source_.counts().lost, 1) << "1,700,000,001";
+}
+
 TEST_F(LcmLive, WrongTypesAndDamagedMessagesAreSkipped) {
   send("RGBD_FRAME", encode_message(command_t{}));
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source_.next(kLong)));

@@ -39,6 +39,13 @@ TEST(FrameOrder, FramesThatRepeatOrWereOvertakenAreNotUsed) {
       << "before 0 is a time like others";
 }
 
+TEST(FrameOrder, EqualTimesAreExplained) {
+  FrameOrder order(StampUnit::microseconds);
+  order.number(kNow, 0);
+  EXPECT_THAT(order.number(kNow, 1).error().message(), HasSubstr("a time of its own"));
+  EXPECT_THAT(order.number(kNow - 1, 2).error().message(), testing::Not(HasSubstr("its own")));
+}
+
 TEST(FrameOrder, ASecondBackIsANewStart) {
   EXPECT_EQ(numbers({{kNow, 0}, {kNow + kFrame, 1}, {kNow - 1'000'000, 2}, {kNow - 1'000'000 + kFrame, 3}}),
             "0 1 2 3 ");

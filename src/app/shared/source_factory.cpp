@@ -116,6 +116,8 @@ Result<OpenSource> open_live(const SourceRequest& request) {
   if (!source) return tl::unexpected(source.error());
   OpenSource open;
   open.if_silent = "Does a camera's program send them on this LCM network?";
+  if (request.channel.empty())
+    open.if_silent += " A channel whose name does not end in RGBD_FRAME has to be named: run.frame_channel.";
   if (const auto shortfall = LcmBus::receive_buffer_shortfall(request.lcm_url))
     open.warnings.push_back(shortfall->message());
   open.source = std::move(*source);
