@@ -31,8 +31,8 @@ void visit(V& v, RunParams& p) {
       "channel_prefix", p.channel_prefix,
       "prefix of the names of all LCM channels that are published; several sensors on one network need different ones");
   v.user("frame_channel", p.frame_channel,
-         "LCM channels with frames (a pattern with * and ?); empty: live the first channel matching *RGBD_FRAME that "
-         "brings a frame, in a log the only channel with frames");
+         "LCM channel with frames, of one camera (* and ? stand for other characters); empty: live the first channel "
+         "matching *RGBD_FRAME that brings a frame, in a log the only channel with frames");
 
   // These settings say how far messages travel, and whether commands from the network are executed.
   v.user("lcm_ttl", p.lcm_ttl, 0, 255,
