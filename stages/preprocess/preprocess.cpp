@@ -63,13 +63,18 @@ Result<HandObservations> Preprocessor::process(const FramePtr& frame, std::span<
                                                const DetectionPtr& detection) {
   if (const Result<void> valid = check(*frame); !valid) return tl::unexpected(valid.error());
   sample_coarsely(*frame, params_, skin_, grid_);
+  const bool coloured = grid_.coloured;
+  if (coloured) grid_.coloured = colour_.trusts(frame->number, grid_, feedback, detection.get());
   const double age = feedback.empty() ? 0 : std::abs(static_cast<double>(frame->utime - feedback[0]->utime)) * 1e-6;
   const std::span<const CoarseHand> hands = locator_.find(grid_, standing_, feedback, age, detection.get());
   standing_.update(grid_, hands, frame->utime);
   HandObservations result;
   if (hands.size() > 1) taken_.reset(frame->camera.width, frame->camera.height);
   for (const CoarseHand& hand : hands) result.push_back(observe(frame, hand, hands, detection));
-  learn_skin(hands, feedback, result);
+  if (coloured) {
+    colour_.learn(grid_, hands);
+    learn_skin(hands, feedback, result);
+  }
   return result;
 }
 
@@ -189,7 +194,6 @@ Region Preprocessor::region_of_interest(const RgbdFrame& frame, const CoarseHand
 void Preprocessor::learn_skin(std::span<const CoarseHand> hands, std::span<const HandEstimatePtr> feedback,
                               const HandObservations& seen) {
   // Learn only from hands that are tracked.
-  if (!grid_.coloured) return;
   training_hands_.clear();
   for (std::size_t k = 0; k < feedback.size(); ++k)
     if (seen[k]->followed && feedback[k]->status == TrackStatus::tracking) training_hands_.push_back(&hands[k]);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "hand/hand_pose.h"
 #include "observe/observation.h"
+#include "stages/preprocess/colour_trust.h"
 #include "stages/preprocess/hand_locator.h"
 #include "stages/preprocess/image/distance_transform.h"
 #include "stages/preprocess/labelling.h"
@@ -33,7 +34,7 @@ class Preprocessor {
 
   /// Whether colour, if there is any, does not tell a followed hand from what touches it, so that the next frame's
   /// detection should.
-  bool needs_labels() const { return !params_.use_colour || locator_.colour_misleads(); }
+  bool needs_labels() const { return !params_.use_colour || locator_.colour_misleads() || !colour_.trusted(); }
   /// The colour of skin as it was learned so far; null if colour is not used.
   const SkinModel* skin() const { return params_.use_colour ? &skin_ : nullptr; }
 
@@ -49,6 +50,7 @@ class Preprocessor {
   PreprocessParams params_;
   SkinModel skin_;
   StandingDepth standing_;
+  ColourTrust colour_;
   HandLocator locator_;
   HandMask masker_;
   DepthCleaner cleaner_;

@@ -172,5 +172,44 @@ TEST_F(DetectionMask, AtAStartSkinThatIsLabelledAsObjectIsHandOnItsBonesOnly) {
   EXPECT_NE(label_at(*o, 0.02, -0.08, kZ), PixelLabel::hand);
 }
 
+/// A hand in a glove, with a bare forearm, before a body.
+PaintedScene gloved_person() {
+  PaintedScene scene;
+  return scene.patch(-0.02, -0.05, 0.3, 1, kZ, test::kBlue)
+      .hand(-0.1, 0.05, kZ, test::kGreen)
+      .forearm(-0.1, 0.05, kZ, test::kSkin);
+}
+
+TEST_F(DetectionMask, AGlovedHandIsFoundByDepthAndFollowedSo) {
+  const DetectionPtr detection = detected(gloved_person());
+  expect_hand_alone(*observe(gloved_person(), detection));
+  EXPECT_TRUE(preprocessor_.needs_labels());
+
+  // The tracker's estimate is of the frame in which the hand was found. In between, the networks saw skin alone.
+  const auto earlier = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ));
+  auto skin = std::make_shared<Detection>(*detection);
+  skin->hands[0].skin_only = true;
+  EXPECT_FALSE(observe(gloved_person(), skin, {}, 1)->hand_present);
+  const auto observation = observe(gloved_person(), detection, {earlier}, 2);
+  EXPECT_TRUE(observation->followed);
+  expect_hand_alone(*observation);
+}
+
+TEST_F(DetectionMask, AGlovesColourIsLearnedInTheEnd) {
+  const DetectionPtr detection = detected(gloved_person());
+  observe(gloved_person(), detection);
+  int number = 1;
+  for (; number < 300 && preprocessor_.needs_labels(); ++number) {
+    const auto earlier = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ, number - 1));
+    expect_hand_alone(*observe(gloved_person(), detection, {earlier}, number));
+  }
+  EXPECT_LT(number, 300);
+}
+
+TEST_F(DetectionMask, WhereColourShowsTheHandItIsUsed) {
+  observe(bare_hand(), detected(bare_hand()));
+  EXPECT_FALSE(preprocessor_.needs_labels());
+}
+
 }  // namespace
 }  // namespace barehand
