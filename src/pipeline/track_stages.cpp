@@ -1,6 +1,8 @@
 // Builds the stages that find and track hands from the configuration.
 #include "pipeline/track_stages.h"
 
+#include <algorithm>
+
 #include "io/data_files.h"
 #include "pipeline/object_feedback.h"
 #include "stages/contact/contact_stage.h"
@@ -78,12 +80,23 @@ TrackStages make_track_stages(const Config& config, const TwoHandTracker::Profil
       stages.grasp = std::bind_front(&GraspStage::process, grasp);
 
   // Preprocessing follows detection, and takes over parameters that have changed.
-  stages.preprocess = [preprocessor, detection, hands, pending](const FramePtr& frame, const HandEstimates& feedback) {
+  stages.preprocess = [preprocessor, detection, hands, pending, told = false, logger = log.shared_logger()](
+                          const FramePtr& frame, const HandEstimates& feedback) mutable {
     if (const auto params = pending ? pending->preprocess.take() : std::nullopt)
       *preprocessor = std::make_unique<Preprocessor>(*params, hands);
     Preprocessor& preprocess = **preprocessor;
-    return preprocess.process(frame, feedback,
-                              detection->process(frame, feedback, preprocess.needs_labels(), preprocess.skin()));
+    auto observations = preprocess.process(
+        frame, feedback, detection->process(frame, feedback, preprocess.needs_labels(), preprocess.skin()));
+
+    // Say once that a hand is followed without its colour, since the sender may have exchanged red and blue.
+    const auto followed = [](const HandObservationPtr& hand) { return hand->followed; };
+    if (!told && !preprocess.colour_is_trusted() && observations && std::ranges::any_of(*observations, followed)) {
+      told = true;
+      logger->warn(
+          "colour is not used: the tracked hand does not have the colour of skin (a glove, coloured light, or red and "
+          "blue exchanged)");
+    }
+    return observations;
   };
   stages.track = [tracker, feedback](HandObservations& observations) {
     if (feedback) tracker->couple_with(feedback->wait());

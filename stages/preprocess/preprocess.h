@@ -35,6 +35,8 @@ class Preprocessor {
   /// Whether colour, if there is any, does not tell a followed hand from what touches it, so that the next frame's
   /// detection should.
   bool needs_labels() const { return !params_.use_colour || locator_.colour_misleads() || !colour_.trusted(); }
+  /// Whether colour shows where the hands of the last frame are (ColourTrust); if not, depth alone was used.
+  bool colour_is_trusted() const { return colour_.trusted(); }
   /// The colour of skin as it was learned so far; null if colour is not used.
   const SkinModel* skin() const { return params_.use_colour ? &skin_ : nullptr; }
 

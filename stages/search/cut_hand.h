@@ -13,8 +13,9 @@ bool cut_by_border(const DetectedJoints& joints, const Intrinsics& camera);
 
 /// Other joints that would look similar in an image that shows only a part of the hand. The detection networks place
 /// all fingers inside the image, so that they may take a finger for one of its neighbours: a ring finger that seems to
-/// be the index finger, because the true one is outside. Each element moves all fingers but the thumb by one or two
-/// places; fingers that nothing was taken for lie beside the others and are uncertain.
+/// be the index finger, because the true one is outside. Most elements move all fingers but the thumb by one or two
+/// places; fingers that nothing was taken for lie beside the others and are uncertain. One has the thumb spread, since
+/// a thumb that is outside may be reported before the palm.
 std::vector<DetectedJoints> with_fingers_moved(const DetectedJoints& joints);
 
 }  // namespace barehand
