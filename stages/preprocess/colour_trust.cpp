@@ -38,9 +38,10 @@ Counts colours_of(const DetectedHand& hand, const CoarseGrid& grid) {
 
 bool ColourTrust::trusts(std::int64_t number, const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
                          const Detection* detection) {
-  last_ = {number, decide(grid, feedback, detection)};
-  earlier_[static_cast<std::uint64_t>(number) % earlier_.size()] = last_;
-  return last_.trusted;
+  const bool trusted = decide(grid, feedback, detection);
+  decisions_[slot(number)] = {number, trusted};
+  number_ = number;
+  return trusted;
 }
 
 bool ColourTrust::decide(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
@@ -48,7 +49,7 @@ bool ColourTrust::decide(const CoarseGrid& grid, std::span<const HandEstimatePtr
   // Tracked hands are followed as they were found.
   bool any = false;
   for (const HandEstimatePtr& hand : feedback) {
-    if (!hand || (hand->status != TrackStatus::tracking && hand->status != TrackStatus::holding)) continue;
+    if (!hand || !hand->has_pose()) continue;
     if (decided(hand->number)) return true;
     any = true;
   }
@@ -61,18 +62,17 @@ bool ColourTrust::decide(const CoarseGrid& grid, std::span<const HandEstimatePtr
 }
 
 bool ColourTrust::decided(std::int64_t number) const {
-  const Decision& decision = earlier_[static_cast<std::uint64_t>(number) % earlier_.size()];
+  const Decision& decision = decisions_[slot(number)];
   return decision.number != number || decision.trusted;
 }
 
 void ColourTrust::learn(const CoarseGrid& grid, std::span<const CoarseHand> hands) {
-  if (last_.trusted) return;
+  if (trusted()) return;
   Counts counts;
   for (const CoarseHand& hand : hands)
     for (std::size_t i = 0; hand.followed && i < hand.cells.size(); ++i)
       if (hand.cells[i]) counts.add(grid.odds[i]);
-  last_.trusted = counts.enough() && !counts.below(kMostlySkin);
-  earlier_[static_cast<std::uint64_t>(last_.number) % earlier_.size()] = last_;
+  decisions_[slot(number_)].trusted = counts.enough() && !counts.below(kMostlySkin);
 }
 
 }  // namespace barehand

@@ -23,7 +23,7 @@ class ColourTrust {
   /// also because the skin model has learned the colour of a glove.
   void learn(const CoarseGrid& grid, std::span<const CoarseHand> hands);
   /// The last decision.
-  bool trusted() const { return last_.trusted; }
+  bool trusted() const { return decided(number_); }
 
  private:
   struct Decision {
@@ -33,8 +33,11 @@ class ColourTrust {
   bool decide(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback, const Detection* detection) const;
   bool decided(std::int64_t number) const;
 
-  Decision last_;
-  std::array<Decision, 64> earlier_;  // decisions of frames, at their number modulo the size
+  static std::size_t slot(std::int64_t number) { return static_cast<std::uint64_t>(number) % kKept; }
+
+  static constexpr std::size_t kKept = 64;
+  std::array<Decision, kKept> decisions_;  // of the last frames, at the slots of their numbers
+  std::int64_t number_ = 0;                // of the last frame
 };
 
 }  // namespace barehand
