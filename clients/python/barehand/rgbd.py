@@ -77,8 +77,8 @@ def _counts(depth, depth_unit):
     if np.issubdtype(depth.dtype, np.floating):
         counts = np.round(depth / depth_unit)
         kept = np.where((counts >= 0) & (counts <= 65535), counts, 0).astype("<u2")  # comparisons with NaN are false
-        beyond = depth[np.isfinite(depth) & (counts > 65535)]
-        if beyond.size and not kept.any():
+        beyond = [] if kept.any() else depth[np.isfinite(depth) & (counts > 65535)]
+        if len(beyond):
             raise Error(f"no pixel of depth is within {65535 * depth_unit:g} m; the first is {beyond[0]:g}", _WHERE,
                         "give floating point depth in metres, or integer counts of depth_unit")
         return kept
