@@ -100,6 +100,15 @@ class Live(Folder):
             self.assertEqual((next(live).frame_number, live.counts.superseded), (9, 9))
         sender.close()
 
+    def test_a_frame_under_way_when_the_stream_begins_is_left_out(self):
+        sender = Network(URL)
+        with barehand.hands(URL, timeout=LONG) as live:
+            for channel, data in [*messages_of(0)[1:], *messages_of(1), *messages_of(2)[1:], *messages_of(3)]:
+                sender.send(channel.decode(), data)
+            frames = [(next(live).frame_number, live.counts.incomplete) for _ in range(3)]
+        sender.close()
+        self.assertEqual(frames, [(1, 0), (2, 1), (3, 1)])
+
 
 class Trouble(unittest.TestCase):
     def test_silence_is_an_error_where_a_timeout_is_given(self):

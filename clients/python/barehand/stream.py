@@ -28,7 +28,7 @@ def hands(source=None, prefix="", timeout=None, newest=False):
 
     Returns a HandStream. Raises Error if the network, the page or the log cannot be opened, or if a log holds no hand
     states. Damaged and foreign messages are left out, and hands may be incomplete; all of these are counted, with one warning
-    for each kind.
+    for each kind. A network's first frame is left out if it is incomplete: it was under way when the stream began.
     """
     return HandStream(source, prefix, timeout, newest)
 
@@ -41,8 +41,9 @@ class HandStream:
         self.counts = Counts()
         self._source = source
         self._receiver = Receiver(source, prefix, list(_PARTS), self.counts, timeout, newest)
-        self._newest = newest and self._receiver.network and not self._receiver.is_page  # a page skips frames itself
-        self._frames = _Frames(self._receiver.prefix, self.counts, self._receiver.is_page)
+        is_network = self._receiver.network and not self._receiver.is_page
+        self._newest = newest and is_network  # a page skips frames itself
+        self._frames = _Frames(self._receiver.prefix, self.counts, self._receiver.is_page, joins=is_network)
         self._hands = self._collect()
 
     def __iter__(self):
@@ -98,10 +99,11 @@ class _Frame:
 class _Frames:
     """Collects the messages of each frame. The number of hands is assumed to be that of the previous frame, so that a
     frame can be returned as soon as its last message arrives; the first frame is returned when the second one
-    begins. `marked`: END_OF_FRAME follows the messages of each frame, and nothing need be assumed."""
+    begins. `marked`: END_OF_FRAME follows the messages of each frame, and nothing need be assumed. `joins`: a first
+    frame may be under way, and is left out if it is incomplete."""
 
-    def __init__(self, prefix, counts, marked=False):
-        self.prefix, self._counts, self._marked = prefix, counts, marked
+    def __init__(self, prefix, counts, marked=False, joins=False):
+        self.prefix, self._counts, self._marked, self._joins = prefix, counts, marked, joins
         self._types = {(prefix + name).encode(): (name, type_) for name, type_ in _PARTS.items()}
         self._open, self._expected, self._last = {}, {}, {}  # by sensor: open frame, expected hands, last frame
 
@@ -125,24 +127,26 @@ class _Frames:
 
     def rest(self):
         """Returns the frames that were not returned yet."""
-        return [self._close(sensor) for sensor in list(self._open)]
+        return [hands for sensor in list(self._open) for hands in self._close(sensor)]
 
     def _sort(self, name, message):
         sensor, key = message.sensor, (message.utime, message.frame_number)
         done = []
         if sensor in self._open and self._open[sensor].key != key:
-            done.append(self._close(sensor))
+            done += self._close(sensor)
 
         # If the frame has more hands than the previous one, its last hand arrives after the frame was returned. That
         # hand is returned separately, and the number of hands is determined again.
         frame = self._open.setdefault(sensor, _Frame(key, late=self._last.get(sensor) == key))
         frame.hands.setdefault((message.handedness, message.hand_id), {})[name] = message
         if not self._marked and not frame.late and len(frame.hands) == self._expected.get(sensor) and frame.complete():
-            done.append(self._close(sensor))
+            done += self._close(sensor)
         return done
 
     def _close(self, sensor):
-        frame = self._open.pop(sensor)
+        frame, is_first = self._open.pop(sensor), sensor not in self._last
         self._expected[sensor], self._last[sensor] = None if frame.late else len(frame.hands), frame.key
+        if self._joins and is_first and not frame.complete():
+            return []
         self._counts.incomplete += sum(len(parts) < len(_PARTS) for parts in frame.hands.values())
-        return Hands([Hand(*(parts.get(name) for name in _PARTS)) for parts in frame.hands.values()])
+        return [Hands([Hand(*(parts.get(name) for name in _PARTS)) for parts in frame.hands.values()])]
