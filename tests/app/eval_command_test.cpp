@@ -74,6 +74,14 @@ TEST_F(EvalCommand, PrintsMetricsAndWritesJsonAndPlots) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/" + plot)) << plot;
 }
 
+TEST_F(EvalCommand, NamesTheShippedHandAsTrackDoes) {
+  ASSERT_EQ(run("eval --truth %/truth.csv --result %/out.csv --hand left --json %/e.json"), 0) << err_;
+  const json report = json::parse(test::read_text(folder_ / "e.json"));
+  const auto left = load_profile(BAREHAND_CONFIGS "/hands/adult_left.json");
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(report["runs"][0]["mean_frame_error_over_hand_length"], 0.002 / left->hand_length(), 1e-6);
+}
+
 TEST_F(EvalCommand, ComparesSeveralRunsUnderTheirLabels) {
   ASSERT_EQ(run("eval --truth %/truth.csv --result %/out.csv %/truth.csv --label ours perfect --json %/e.json"), 0);
   const json report = json::parse(test::read_text(folder_ / "e.json"));

@@ -88,8 +88,7 @@ Result<Input> read_input(const BenchOptions& options) {
 Result<void> check_written(const BenchOptions& options) {
   std::vector<InputFile> inputs{{"--draw", options.draw}};
   for (const std::string& config : options.configs) inputs.push_back({"--config", find_config(config).value_or("")});
-  for (const std::string& hand : options.hands)
-    if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
+  for (const std::string& path : profile_paths(options.hands)) inputs.push_back({"--hand", path});
 
   for (const std::string& object : options.objects.paths) inputs.push_back({"--object", object});
   const bool draws = !options.draw.empty() || (!options.json.empty() && !options.plots.empty());

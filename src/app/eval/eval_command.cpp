@@ -13,8 +13,8 @@
 #include "app/eval/stated_poses.h"
 #include "app/shared/exit_code.h"
 #include "app/shared/outputs.h"
+#include "app/shared/run_inputs.h"
 #include "app/shared/standard_streams.h"
-#include "io/hand/hand_json.h"
 #include "io/mesh/mesh_file.h"
 #include "io/recording/recording.h"
 
@@ -84,7 +84,8 @@ std::filesystem::path mesh_of(const std::filesystem::path& table, const std::str
 /// will be drawn.
 Result<void> check_written(const EvalOptions& o) {
   // List the files that are read.
-  std::vector<InputFile> inputs{{"--hand", o.hand}, {"--fingertips", o.fingertips}};
+  std::vector<InputFile> inputs{{"--fingertips", o.fingertips}};
+  for (const std::string& path : profile_paths({o.hand})) inputs.push_back({"--hand", path});
   for (const std::string& path : o.results) inputs.push_back({"--result", path});
   for (const std::string& path : o.truths) inputs.push_back({"--truth", path});
   for (const std::string& path : o.states) inputs.push_back({"--states", path});
@@ -249,11 +250,12 @@ Result<EvalReport> evaluate_all(const EvalOptions& o) {
 
   // Compare with the size of the hand, and with labelled fingertips.
   if (o.hand.empty()) return report;
-  const auto profile = load_profile(o.hand);
-  if (!profile) return tl::unexpected(profile.error());
-  report.hand_length = profile->hand_length();
+  const auto hand = load_hand(o.hand);
+  if (!hand) return tl::unexpected(hand.error());
+  report.hand_length = hand->profile->hand_length();
   if (!o.fingertips.empty())
-    if (const auto tips = compare_fingertips(o, results, *profile, report); !tips) return tl::unexpected(tips.error());
+    if (const auto tips = compare_fingertips(o, results, *hand->profile, report); !tips)
+      return tl::unexpected(tips.error());
   return report;
 }
 
@@ -294,7 +296,9 @@ void add_eval_command(CLI::App& app, int& exit_code) {
 
   // Add options for how the results are named, and how their frames are numbered.
   eval->add_option("--label", o->labels, "name of each result in tables and plots");
-  eval->add_option("--hand", o->hand, "hand profile: errors as a fraction of the hand's length");
+  eval->add_option(
+      "--hand", o->hand,
+      "hand.json, or right or left, the shipped mean adult hand: errors as a fraction of the hand's length");
   eval->add_option("--start", o->start, "first frame of the run, as given to track");
   eval->add_option("--step", o->step, "step between frames, as given to track");
 

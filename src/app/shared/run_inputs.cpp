@@ -1,6 +1,9 @@
 // Loads the configuration and the hand profiles of a run.
 #include "app/shared/run_inputs.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "io/data_files.h"
 #include "io/hand/hand_json.h"
 
@@ -10,13 +13,6 @@ namespace {
 Result<NamedHand> named(Result<HandProfile> profile, const std::string& name) {
   if (!profile) return tl::unexpected(profile.error());
   return NamedHand{std::make_shared<const HandProfile>(std::move(*profile)), name};
-}
-
-/// Loads the shipped mean adult hand.
-Result<NamedHand> shipped(const std::string& side) {
-  return find_data_file("configs/hands/adult_" + side + ".json").and_then([](const std::string& path) {
-    return named(load_profile(path), path);
-  });
 }
 
 }  // namespace
@@ -37,21 +33,35 @@ Result<Config> read_configuration(const std::string& name) {
   });
 }
 
+Result<NamedHand> load_hand(const std::string& name) {
+  if (name != "right" && name != "left") return named(load_profile(name), name);
+  return find_data_file("configs/hands/adult_" + name + ".json").and_then([](const std::string& path) {
+    return named(load_profile(path), path);
+  });
+}
+
+std::vector<std::string> profile_paths(const std::vector<std::string>& names) {
+  std::vector<std::string> paths;
+  std::ranges::copy_if(names, std::back_inserter(paths),
+                       [](const std::string& name) { return name != "right" && name != "left" && name != "both"; });
+  return paths;
+}
+
 Result<std::vector<NamedHand>> choose_hands(const std::vector<std::string>& wanted, const OpenSource& source) {
   // Load the hands that the user named, else those of the source, else the mean right hand.
   std::vector<Result<NamedHand>> found;
   for (const std::string& name : wanted) {
     if (name == "both") {
-      found.push_back(shipped("right"));
-      found.push_back(shipped("left"));
+      found.push_back(load_hand("right"));
+      found.push_back(load_hand("left"));
     } else {
-      found.push_back(name == "right" || name == "left" ? shipped(name) : named(load_profile(name), name));
+      found.push_back(load_hand(name));
     }
   }
 
   if (found.empty())
     for (const SourceHand& hand : source.hands) found.push_back(named(hand.load(), hand.name));
-  if (found.empty()) found.push_back(shipped("right"));
+  if (found.empty()) found.push_back(load_hand("right"));
 
   // Accept one hand of each side.
   std::vector<NamedHand> hands;

@@ -19,6 +19,11 @@ struct NamedHand {
   std::string name;  ///< where the profile comes from, for messages
 };
 
+/// Loads the hand `name`: the path of a profile, or right or left for the shipped mean adult hand.
+Result<NamedHand> load_hand(const std::string& name);
+/// Those of the names that are paths of profiles, and not right, left or both.
+std::vector<std::string> profile_paths(const std::vector<std::string>& names);
+
 /// Loads the hands to track. An entry of `wanted` is the path of a profile, or right, left or both for the shipped mean
 /// adult hand. If it is empty, these are the hands of the source (OpenSource::hands), or else the shipped right hand.
 /// Errors: a profile that cannot be read, two hands of the same side.

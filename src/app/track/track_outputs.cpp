@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/shared/run_inputs.h"
 #include "io/hand/path_of_hand.h"
 #include "io/lcm/log_names.h"
 #include "io/mcap/mcap_writer.h"
@@ -115,8 +116,7 @@ Result<TrackOptions> resolve_outputs(TrackOptions options, const std::string& co
 
   // Check the file names as the user gave them, before free numbers are appended to names that exist.
   std::vector<InputFile> inputs{{"--config", config_path}};
-  for (const std::string& hand : options.hands)
-    if (hand != "right" && hand != "left" && hand != "both") inputs.push_back({"--hand", hand});
+  for (const std::string& path : profile_paths(options.hands)) inputs.push_back({"--hand", path});
   if (options.init != "auto") inputs.push_back({"--init", options.init});
   for (const std::string& object : options.objects.paths) inputs.push_back({"--object", object});
   const SourceFiles source = files_of_source(options.source);
