@@ -22,6 +22,7 @@ from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
 from scenes.sensors import cut, measure
 from scenes.shapes import BOX, CAPSULE, CYLINDER, ELLIPSOID, FAR, NOTHING, distance_to_solid, hit_solid
 from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
+from scenes.skin import FAR_AWAY, keep_skin
 from scenes.views import crop_view, full_view
 
 CPU = torch.device("cpu")
@@ -232,6 +233,20 @@ class Scenes(unittest.TestCase):
             valid = (windows.label[i] == HAND) & (windows.depth[i] > 0)
             if valid.any():
                 self.assertLess((windows.depth[i][valid].median() - windows.joints[i, 0, :, 2].median()).abs(), 0.1)
+
+
+class Skin(unittest.TestCase):
+    def test_most_of_what_does_not_have_its_colour_is_moved_away_in_some_images(self):
+        depth, surface = torch.full((400, 30, 40), 0.7), torch.zeros(400, 30, 40, dtype=torch.long)
+        depth[:, :, 35:] = 0
+        surface[:, :, 10:20] = 1  # a hand
+        kept, gone = keep_skin(Chance(21), depth, surface)
+        some = gone.flatten(1).any(1)
+        self.assertTrue(60 < some.sum() < 140)
+        self.assertTrue(torch.equal(kept, torch.where(gone, torch.full_like(depth, FAR_AWAY), depth)))
+        self.assertFalse(gone[:, :, 35:].any())
+        self.assertGreater(gone[some][:, :, 20:35].float().mean(), 0.85)
+        self.assertLess(gone[some][:, :, 10:20].float().mean(), 0.25)
 
 
 class Sensors(unittest.TestCase):

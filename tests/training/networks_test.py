@@ -1,13 +1,19 @@
 #!/usr/bin/env python3
 """Tests the inputs, the losses and the metrics of the training."""
+import itertools
+import tempfile
 import unittest
+from pathlib import Path
 
 import surroundings  # first: skips without PyTorch
 import torch
+from batches import Supply, batches
 from evaluate import evaluate
-from examples import MAP_OFFSET, MAP_STEP, crop_input, full_input, generator_for, make_examples
+from examples import MAP_OFFSET, MAP_STEP, crop_input, drawn, full_input, generator_for, make_examples
+from export import export
 from losses import LOSSES, joint_errors_mm
 from network import make_network
+from weights import read_weights
 
 MESH = surroundings.HANDS / "right.glb"
 
@@ -74,7 +80,42 @@ class Figures(unittest.TestCase):
             self.assertEqual(figures["frames of feet with a false palm"], share)
 
 
+class Batches(unittest.TestCase):
+    def test_examples_of_the_newest_groups_are_seen_as_often_as_said(self):
+        for beside in (False, True):
+            supply = Supply(batch=6, at_once=4, kept=3, passes=2, beside=beside)
+            made = itertools.islice(batches(generator_for(5, "cpu", None, 500), "crop", supply), 20)
+            depths = torch.cat([examples.image[:, 0].mean((1, 2)) for examples in made])
+            self.assertEqual(len(depths), 120)
+            self.assertAlmostEqual(len(depths.unique()), 60, delta=12)
+
+    def test_drawn_examples_stay_whole(self):
+        groups = [make_examples(generator_for(seed, "cpu", None, 500), "crop", 6) for seed in (7, 8)]
+        some = drawn(groups, 8)
+        self.assertEqual(len(some.image), 8)
+        for image, uv, label in zip(some.image, some.uv, some.scenes.label):
+            same = [(group, i) for group in groups for i in range(6) if torch.equal(group.image[i], image)]
+            self.assertEqual(len(same), 1)
+            (group, i), = same
+            self.assertTrue(torch.equal(group.uv[i], uv) and torch.equal(group.scenes.label[i], label))
+
+
 class Networks(unittest.TestCase):
+    def test_their_weights_are_read_back_from_their_files(self):
+        images = make_examples(generator_for(6, "cpu", None, 500), "crop", 24).image
+        network, same = make_network("crop"), make_network("crop")
+        network.train()(images)  # sets the means and variances of the normalisations
+        with tempfile.TemporaryDirectory() as folder:
+            export(network, "crop", Path(folder))
+            read_weights(same, Path(folder) / "crop.onnx", images)
+            with self.assertRaisesRegex(SystemExit, "another network"):
+                read_weights(make_network("full"), Path(folder) / "crop.onnx", images)
+        with torch.no_grad():
+            wanted = network.eval()(images)
+            for mode, tolerance in ((False, 1e-4), (True, 0.1)):  # while training, each batch has a mean of its own
+                for ours, theirs in zip(same.train(mode)(images), wanted):
+                    self.assertLess((ours - theirs).abs().max(), tolerance * (1 + theirs.abs().max()))
+
     def test_their_outputs_have_the_shapes_of_the_interface(self):
         for name, size, joints in (("full", (120, 160), 1), ("crop", (96, 96), 21)):
             maps, labels, side = make_network(name).eval()(torch.zeros(1, 2, *size))

@@ -1,7 +1,7 @@
 """Examples for the networks: scenes as inputs of a network, with the outputs that it should give. The program prepares
 its inputs in the same way in stages/detection/networks.cpp."""
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, Iterator
+from typing import Any, Callable, Sequence
 
 import torch
 from torch import Tensor
@@ -72,24 +72,25 @@ def _crop(generator: Generator, count: int) -> Examples:
                     scenes.right[:, 0] != mirror, 1e3 * scenes.middle[:, 2] / scenes.view.focal, scenes)
 
 
-def shuffled(examples: Examples) -> Examples:
-    """The same examples in another order, which PyTorch's own generator of random numbers decides."""
-    return _rows(examples, torch.randperm(len(examples.image), device=examples.image.device))
+def drawn(groups: Sequence[Examples], size: int) -> Examples:
+    """`size` examples of up to four of the groups. PyTorch's own generator of random numbers draws them."""
+    chosen = [groups[i] for i in torch.randperm(len(groups))[:4].tolist()]
+    shares = [(size + i) // len(chosen) for i in range(len(chosen))]
+    return _each([_rows(group, torch.randperm(len(group.image))[:share]) for group, share in zip(chosen, shares)], torch.cat)
 
 
-def parts(examples: Examples, size: int) -> Iterator[Examples]:
-    """Divides `examples` into batches of `size`."""
-    for first in range(0, len(examples.image), size):
-        yield _rows(examples, slice(first, first + size))
+def _rows(examples: Examples, rows: Tensor) -> Examples:
+    return _each([examples], lambda values: values[0][rows])
 
 
-def _rows(value: Any, rows: slice | Tensor) -> Any:
-    """The `rows` of each tensor in a dataclass; what is no tensor is kept."""
-    if isinstance(value, Tensor):
-        return value[rows]
-    if is_dataclass(value):
-        return type(value)(*(_rows(getattr(value, field.name), rows) for field in fields(value)))
-    return value
+def _each(values: Sequence[Any], function: Callable[[Sequence[Tensor]], Tensor]) -> Any:
+    """The `function` of equally named tensors of dataclasses; what is no tensor is taken from the first one."""
+    if isinstance(values[0], Tensor):
+        return function(values)
+    if is_dataclass(values[0]):
+        return type(values[0])(*(_each([getattr(value, field.name) for value in values], function)
+                                 for field in fields(values[0])))
+    return values[0]
 
 
 def generator_for(seed: int, device: str, mesh, points: int) -> Generator:

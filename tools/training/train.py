@@ -2,6 +2,7 @@
 """Trains the networks that find hands, measures them on unseen scenes, and writes a folder that the program reads.
 
   train.py OUT                 half an hour on a GPU
+  train.py OUT --resume configs/nets    an hour on two cores of a processor: goes on from the shipped networks
   train.py OUT --smoke         a minute or two on a processor: shows that the training works, not how good it is
 """
 import argparse
@@ -10,32 +11,31 @@ import math
 import os
 import time
 from pathlib import Path
-from typing import Iterator
 
 import torch
 
+from batches import SMOKE, SUPPLIES, batches
 from evaluate import UNSEEN_SEED, evaluate
-from examples import Examples, generator_for, make_examples, parts, shuffled
+from examples import generator_for, make_examples
 from export import SIZES, export, greatest_difference, write_manifest
 from hands_folder import add_hands_option, right_hand
 from losses import LOSSES
 from network import HandNetwork, make_network
-from scenes.scene import Generator
+from weights import read_weights
 
 _SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
-_BATCH = {"full": 160, "crop": 256}
-# Number of batches that are made at once, because a GPU makes many images in hardly more time than few, and how often
-# the network sees them, because it learns from an image in less time than it takes to make it.
-_AT_ONCE, _PASSES = 6, 3
-_SMOKE_STEPS, _SMOKE_BATCH = {"full": 24, "crop": 60}, 8
+_RATE, _RESUMED_RATE = 2e-3, 2e-4  # highest learning rates; a higher one destroys what resumed networks know
+_SMOKE_STEPS = {"full": 24, "crop": 60}
+_VALIDATION = {"full": 160, "crop": 256}  # number of scenes on which the loss is printed
 _VALIDATION_SEED = 1_000_003  # seed whose people and scenes are in no batch of the training
 
 
 class Schedule:
     """The progress of the training: by time, or by the number of steps if equal runs must give equal networks."""
 
-    def __init__(self, seconds: float, steps: int) -> None:
-        self.seconds, self.steps, self.done, self.started = seconds, steps, 0, time.monotonic()
+    def __init__(self, seconds: float, steps: int, highest_rate: float) -> None:
+        self.seconds, self.steps, self.highest_rate = seconds, steps, highest_rate
+        self.done, self.started = 0, time.monotonic()
 
     def progress(self) -> float:
         """The part of the training that is done, 0 to 1."""
@@ -43,32 +43,33 @@ class Schedule:
             return self.done / self.steps
         return (time.monotonic() - self.started) / self.seconds
 
-    def rate(self, highest: float = 2e-3) -> float:
+    def rate(self) -> float:
         """The learning rate: rises linearly over the first steps, then decreases like a cosine."""
         rise = min(1.0, (self.done + 1) / (200 if not self.steps else 10))
-        return highest * rise * 0.5 * (1 + math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
+        return self.highest_rate * rise * 0.5 * (1 + math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
 
 
-def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int, points: int) -> HandNetwork:
+def train(name: str, options: argparse.Namespace, schedule: Schedule, points: int) -> HandNetwork:
     """Trains the network `name` and returns it. Prints the loss on scenes that are not part of the training."""
     torch.manual_seed(options.seed)
     device, mesh = options.device, right_hand(options.hands)
-    network = make_network(name).to(device, memory_format=torch.channels_last)
+    network = make_network(name)
+    unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 32 if options.smoke else _VALIDATION[name])
     if options.resume:
-        network.load_state_dict(torch.load(options.resume / f"{name}.pt", map_location=device))
+        read_weights(network, options.resume / f"{name}.onnx", unseen.image.cpu())
+    network.to(device, memory_format=torch.channels_last)
     optimiser = torch.optim.AdamW(network.parameters(), 2e-3, weight_decay=1e-3)
     generator = generator_for(options.seed + len(name) * 7919, device, mesh, points)
-    unseen = make_examples(generator_for(_VALIDATION_SEED, device, mesh, points), name, 4 * batch if options.smoke else batch)
     before = _loss(network, name, unseen)
 
     # Train, with new examples after every few passes.
-    batches = _batches(generator, name, batch, *((1, 1) if options.smoke else (_AT_ONCE, _PASSES)))
+    supply = batches(generator, name, SMOKE if options.smoke else SUPPLIES[device][name])
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
         network.train()
-        examples = next(batches)
-        with torch.autocast(device, torch.bfloat16, enabled=device == "cuda"):
+        examples = next(supply)
+        with torch.autocast(device, torch.bfloat16, enabled=not options.smoke):
             output = network(examples.image.contiguous(memory_format=torch.channels_last))
         loss = LOSSES[name](output, examples)
         optimiser.zero_grad()
@@ -87,13 +88,6 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, batch: int
     return network
 
 
-def _batches(generator: Generator, name: str, size: int, at_once: int, passes: int) -> Iterator[Examples]:
-    while True:
-        examples = make_examples(generator, name, size * at_once)
-        for _ in range(passes):
-            yield from parts(shuffled(examples), size)
-
-
 def _loss(network: HandNetwork, name: str, examples) -> float:
     network.eval()
     with torch.no_grad():
@@ -106,15 +100,15 @@ def main() -> None:
     torch.backends.cudnn.benchmark = True
     started, figures = time.monotonic(), {}
     for name in options.networks:
-        batch = _SMOKE_BATCH if options.smoke else _BATCH[name]
-        points = 5000 if options.smoke else 12000
+        points = 12000 if options.device == "cuda" else 5000
         share = _SHARE[name] if len(options.networks) > 1 else 1
-        schedule = Schedule(60 * options.minutes * share, _SMOKE_STEPS[name] if options.smoke else options.steps)
-        network = train(name, options, schedule, batch, points)
+        schedule = Schedule(60 * options.minutes * share, _SMOKE_STEPS[name] if options.smoke else options.steps,
+                            _RESUMED_RATE if options.resume else _RATE)
+        network = train(name, options, schedule, points)
 
         generator = generator_for(UNSEEN_SEED, options.device, right_hand(options.hands), points)
-        figures[name] = evaluate(network.float().eval(), name, generator, *((1, 32) if options.smoke else (40, 128)))
-        torch.save(network.state_dict(), options.out / f"{name}.pt")
+        scenes = (1, 32) if options.smoke else (40, 128) if options.device == "cuda" else (16, 32)
+        figures[name] = evaluate(network.float().eval(), name, generator, *scenes)
         export(network, name, options.out)
         if options.check:
             images = make_examples(generator_for(5, "cpu", right_hand(options.hands), 5000), name, 4).image
@@ -131,12 +125,12 @@ def main() -> None:
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", type=Path, help="folder for full.onnx, crop.onnx, nets.json, weights and evaluation.json")
+    parser.add_argument("out", type=Path, help="folder for full.onnx, crop.onnx, nets.json and evaluation.json")
     parser.add_argument("--minutes", type=float, default=25, help="of training (default: 25)")
     parser.add_argument("--steps", type=int, default=0, help="of each network, instead of a time")
     parser.add_argument("--smoke", action="store_true", help="a few small steps")
     parser.add_argument("--network", choices=SIZES, help="train this one only, for example beside the other one")
-    parser.add_argument("--resume", type=Path, metavar="FOLDER", help="go on from full.pt and crop.pt of an earlier OUT")
+    parser.add_argument("--resume", type=Path, metavar="FOLDER", help="go on from the networks of an earlier OUT or of configs/nets")
     parser.add_argument("--version", default="2.0", help="that nets.json states (default: 2.0)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--device", default="cuda" if torch.cuda.is_available() else "cpu")
@@ -146,8 +140,8 @@ def _options() -> argparse.Namespace:
     options.networks = [options.network] if options.network else ["crop", "full"]
     if options.device == "cpu":
         torch.set_num_threads(int(os.environ.get("OMP_NUM_THREADS", "1")))
-        if not options.smoke:
-            print("no GPU: the training would take days; --smoke shows whether it works", flush=True)
+        if not options.smoke and not options.resume:
+            print("no GPU: the training would take days; --resume configs/nets goes on from the shipped networks", flush=True)
     return options
 
 

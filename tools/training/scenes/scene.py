@@ -20,6 +20,7 @@ from .rotations import apply
 from .sensors import cut, measure
 from .shapes import FAR, NOTHING, hit_solid, only
 from .skeleton import MIDDLE_KNUCKLE, WRIST
+from .skin import keep_skin
 from .surroundings import clutter, occluders, planes
 from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
 
@@ -111,14 +112,16 @@ class Generator:
         arm = torch.minimum(arm, only(both, other_arm))
         lookalike = _lookalike_kinds(chance, present)
         arm = only(present | (lookalike < 0) & chance.flag(0.85, count), arm)
-        rest = torch.minimum(only(chance.flag(0.55, count) & ~stance.egocentric, bodies(chance, rays, shoulder)),
-                             planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1)))
+        rest = planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1))
         rest = torch.minimum(rest, clutter(chance, rays, place))
-        rest = torch.minimum(rest, lookalikes(chance, rays, place + present[:, None] * beside(chance, place, 0.25), lookalike))
+        others = lookalikes(chance, rays, place + present[:, None] * beside(chance, place, 0.25), lookalike)
+        whose = (chance.flag(0.55, count) & ~stance.egocentric).nonzero()[:, 0]  # bodies take long, and half are not seen
+        others[whose] = torch.minimum(others[whose], bodies(chance, rays[whose], shoulder[whose]))
         shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
         thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
         layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
-                  (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT)]
+                  (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT),
+                  (others, BACKGROUND)]
 
         # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile.
         motion = 0.03 * view.focal / place[:, 2]
@@ -129,6 +132,8 @@ class Generator:
         if not whole:
             inside = ~cut(chance, view)
             measured, visible = measured * inside, visible & inside
+        measured, gone = keep_skin(chance, measured, winner)
+        visible = visible & ~gone
         label = torch.where(visible, label, torch.zeros_like(label))
         shown = [((winner == 1 + hand) & visible).flatten(1).sum(1) for hand in range(2)]
         pixels = torch.stack([shown[0] * present, shown[1] * both], 1)
