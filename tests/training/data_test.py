@@ -4,6 +4,7 @@ import dataclasses
 import json
 import re
 import unittest
+from unittest import mock
 
 import surroundings
 import torch
@@ -21,7 +22,7 @@ from scenes.poses import free_poses
 from scenes.scene import ARM, BACKGROUND, HAND, OBJECT, Generator
 from scenes.sensors import cut, measure
 from scenes.shapes import BOX, CAPSULE, CYLINDER, ELLIPSOID, FAR, NOTHING, distance_to_solid, hit_solid
-from scenes.skeleton import TIPS, forward_kinematics, landmarks, limits
+from scenes.skeleton import MIDDLE_KNUCKLE, TIPS, WRIST, forward_kinematics, landmarks, limits
 from scenes.skin import FAR_AWAY, keep_skin
 from scenes.views import crop_view, full_view
 
@@ -223,7 +224,16 @@ class Scenes(unittest.TestCase):
         self.assertTrue(((frames.label == HAND).flatten(1).sum(1) > 0)[seen].all())
 
     def test_the_joints_lie_where_the_hand_is_seen(self):
-        windows = self.windows
+        self.check_joints(self.windows)
+
+    def test_so_they_do_in_images_that_are_upside_down(self):
+        with mock.patch("scenes.scene._UPSIDE_DOWN", 1.0):
+            windows = Generator(Chance(7), MESH, 5000).windows(24)
+        upright = (windows.joints[:, 0, MIDDLE_KNUCKLE, 1] < windows.joints[:, 0, WRIST, 1])
+        self.assertLess(upright.float().mean(), 0.5)
+        self.check_joints(windows)
+
+    def check_joints(self, windows):
         for i in range(24):
             if windows.pixels[i, 0] < 300:
                 continue

@@ -25,6 +25,7 @@ from .surroundings import clutter, occluders, planes
 from .views import CROP_ACROSS, View, crop_view, draw_points, full_view
 
 BACKGROUND, HAND, ARM, OBJECT = range(4)
+_UPSIDE_DOWN = 0.2  # probability that an image is upside down
 _MEAN_PALM = 0.095  # distance from wrist to middle knuckle of a mean hand [m]
 
 
@@ -123,9 +124,17 @@ class Generator:
                   (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT),
                   (others, BACKGROUND)]
 
-        # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile.
+        # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile. Some
+        # sensors hang upside down, or look at a person from above the other side of a desk.
         motion = 0.03 * view.focal / place[:, 2]
         depth, winner = seen_in_motion(chance, torch.stack([layer for layer, _ in layers], 1), motion)
+        every = torch.stack([joints, other_joints], 1)
+        if turned := chance.flag(_UPSIDE_DOWN, count).nonzero()[:, 0].tolist():
+            view, middle = view.upside_down(turned), middle.clone()
+            for image in (depth, winner):
+                image[turned] = image[turned].flip(1, 2)
+            middle[turned, :2] *= -1
+            every[turned, :, :, :2] *= -1
         label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
         visible = depth < FAR
         measured, sensor = measure(chance, depth, view)
@@ -137,7 +146,6 @@ class Generator:
         label = torch.where(visible, label, torch.zeros_like(label))
         shown = [((winner == 1 + hand) & visible).flatten(1).sum(1) for hand in range(2)]
         pixels = torch.stack([shown[0] * present, shown[1] * both], 1)
-        every = torch.stack([joints, other_joints], 1)
         uv = view.project(every.flatten(1, 2)).reshape(count, 2, -1, 2)
         return Scenes(view, measured, label, every, uv, pixels, torch.stack([right, other.right], 1), grasp & present,
                       sensor, lookalike, middle)
