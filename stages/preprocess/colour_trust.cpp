@@ -2,6 +2,7 @@
 #include "stages/preprocess/colour_trust.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace barehand {
 namespace {
@@ -45,15 +46,17 @@ bool ColourTrust::trusts(std::int64_t number, const CoarseGrid& grid, std::span<
 }
 
 bool ColourTrust::decide(const CoarseGrid& grid, std::span<const HandEstimatePtr> feedback,
-                         const Detection* detection) const {
-  // Tracked hands are followed as they were found.
-  bool any = false;
+                         const Detection* detection) {
+  // Tracked hands are followed as they were found. The frames between the first pose and its feedback may have been
+  // decided otherwise.
+  bool any = false, found_by_colour = false;
   for (const HandEstimatePtr& hand : feedback) {
     if (!hand || !hand->has_pose()) continue;
-    if (decided(hand->number)) return true;
     any = true;
+    found_by_colour |= decided(hand->number);
   }
-  if (any) return false;
+  const bool was_followed = std::exchange(followed_, any);
+  if (any) return was_followed ? trusted() : found_by_colour;
 
   // The most probable hand decides, unless it was found among what has the colour of skin.
   if (!detection || detection->hands.empty() || detection->hands.front().skin_only) return true;

@@ -173,10 +173,10 @@ TEST_F(DetectionMask, AtAStartSkinThatIsLabelledAsObjectIsHandOnItsBonesOnly) {
 }
 
 /// A hand in a glove, with a bare forearm, before a body.
-PaintedScene gloved_person() {
+PaintedScene gloved_person(Rgb glove = test::kGreen) {
   PaintedScene scene;
   return scene.patch(-0.02, -0.05, 0.3, 1, kZ, test::kBlue)
-      .hand(-0.1, 0.05, kZ, test::kGreen)
+      .hand(-0.1, 0.05, kZ, glove)
       .forearm(-0.1, 0.05, kZ, test::kSkin);
 }
 
@@ -193,6 +193,11 @@ TEST_F(DetectionMask, AGlovedHandIsFoundByDepthAndFollowedSo) {
   const auto observation = observe(gloved_person(), detection, {earlier}, 2);
   EXPECT_TRUE(observation->followed);
   expect_hand_alone(*observation);
+
+  // The next estimate is of the frame in between. The hand is followed as it was found, even in a glove whose colour
+  // was not learned yet.
+  const auto between = std::make_shared<const HandEstimate>(test::painted_hand_estimate(-0.1, 0.05, kZ, 1));
+  expect_hand_alone(*observe(gloved_person(test::kBlue), detection, {between}, 3));
 }
 
 TEST_F(DetectionMask, AGlovesColourIsLearnedInTheEnd) {
