@@ -110,6 +110,8 @@ class Networks(unittest.TestCase):
             read_weights(same, Path(folder) / "crop.onnx", images)
             with self.assertRaisesRegex(SystemExit, "another network"):
                 read_weights(make_network("full"), Path(folder) / "crop.onnx", images)
+            with self.assertRaisesRegex(SystemExit, "full.onnx is missing"):
+                read_weights(make_network("full"), Path(folder) / "full.onnx", images)
         with torch.no_grad():
             wanted = network.eval()(images)
             for mode, tolerance in ((False, 1e-4), (True, 0.1)):  # while training, each batch has a mean of its own

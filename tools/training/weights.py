@@ -12,6 +12,8 @@ def read_weights(network: HandNetwork, path: Path, images: Tensor) -> None:
     them in training. It is separated from them again by its mean and variance on typical `images` [B, 2, H, W]."""
     import cv2
 
+    if not path.is_file():
+        raise SystemExit(f"{path} is missing (give a folder that train.py or configs/nets filled)")
     reader = cv2.dnn.readNetFromONNX(str(path))
     layers = [reader.getLayer(reader.getLayerId(name)).blobs for name in reader.getLayerNames()]
     stored = [[torch.from_numpy(blob.copy()) for blob in blobs] for blobs in layers if len(blobs)]
