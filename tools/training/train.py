@@ -25,7 +25,7 @@ from weights import read_weights
 
 _SHARE = {"full": 0.33, "crop": 0.67}  # fraction of the training time for each network
 _RATE, _RESUMED_RATE = 2e-3, 2e-4  # highest learning rates; a higher one destroys what resumed networks know
-_SMOKE_STEPS = {"full": 24, "crop": 60}
+_SMOKE_STEPS = {"full": 24, "crop": 120}
 _VALIDATION = {"full": 160, "crop": 256}  # number of scenes on which the loss is printed
 _VALIDATION_SEED = 1_000_003  # seed whose people and scenes are in no batch of the training
 
