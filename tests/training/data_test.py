@@ -250,7 +250,7 @@ class Skin(unittest.TestCase):
         depth, surface = torch.full((400, 30, 40), 0.7), torch.zeros(400, 30, 40, dtype=torch.long)
         depth[:, :, 35:] = 0
         surface[:, :, 10:20] = 1  # a hand
-        kept, gone = keep_skin(Chance(21), depth, surface)
+        kept, gone = keep_skin(Chance(21), depth, surface, (0.0, 1.0))
         some = gone.flatten(1).any(1)
         self.assertTrue(60 < some.sum() < 140)
         self.assertTrue(torch.equal(kept, torch.where(gone, torch.full_like(depth, FAR_AWAY), depth)))

@@ -58,17 +58,17 @@ def train(name: str, options: argparse.Namespace, schedule: Schedule, points: in
     if options.resume:
         read_weights(network, options.resume / f"{name}.onnx", unseen.image.cpu())
     network.to(device, memory_format=torch.channels_last)
-    optimiser = torch.optim.AdamW(network.parameters(), 2e-3, weight_decay=1e-3)
+    optimiser = torch.optim.AdamW(network.parameters(), weight_decay=1e-3)
     generator = generator_for(options.seed + len(name) * 7919, device, mesh, points)
     before = _loss(network, name, unseen)
 
     # Train, with new examples after every few passes.
-    supply = batches(generator, name, SMOKE if options.smoke else SUPPLIES[device][name])
+    stream = batches(generator, name, SMOKE if options.smoke else SUPPLIES[device][name])
     while schedule.progress() < 1:
         for group in optimiser.param_groups:
             group["lr"] = schedule.rate()
         network.train()
-        examples = next(supply)
+        examples = next(stream)
         with torch.autocast(device, torch.bfloat16, enabled=not options.smoke):
             output = network(examples.image.contiguous(memory_format=torch.channels_last))
         loss = LOSSES[name](output, examples)

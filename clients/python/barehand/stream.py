@@ -41,7 +41,7 @@ class HandStream:
         self.counts = Counts()
         self._source = source
         self._receiver = Receiver(source, prefix, list(_PARTS), self.counts, timeout, newest)
-        is_network = self._receiver.network and not self._receiver.is_page
+        is_network = self._receiver.network is not None and not self._receiver.is_page
         self._newest = newest and is_network  # a page skips frames itself
         self._frames = _Frames(self._receiver.prefix, self.counts, self._receiver.is_page, joins=is_network)
         self._hands = self._collect()

@@ -120,28 +120,30 @@ class Generator:
         others[whose] = torch.minimum(others[whose], bodies(chance, rays[whose], shoulder[whose]))
         shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
         thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
-        layers = [(rest, BACKGROUND), (only(present, draw_points(view, skin)), HAND),
-                  (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND), (arm, ARM), (thing, OBJECT),
-                  (others, BACKGROUND)]
+        # Each layer: depth, label, and the probability that it has the colour of skin.
+        layers = [(rest, BACKGROUND, 0.0), (only(present, draw_points(view, skin)), HAND, 1.0),
+                  (only(both, draw_points(view, other_skin)), HAND if whole else BACKGROUND, 1.0), (arm, ARM, 0.5),
+                  (thing, OBJECT, 0.15), (others, BACKGROUND, 0.5)]
+        layer_depths, layer_labels, skin_probabilities = zip(*layers)
 
         # Find the nearest surface at every pixel, and simulate a sensor. A quick hand moves by up to 3 cm meanwhile. Some
         # sensors hang upside down, or look at a person from above the other side of a desk.
         motion = 0.03 * view.focal / place[:, 2]
-        depth, winner = seen_in_motion(chance, torch.stack([layer for layer, _ in layers], 1), motion)
+        depth, winner = seen_in_motion(chance, torch.stack(layer_depths, 1), motion)
         every = torch.stack([joints, other_joints], 1)
-        if turned := chance.flag(_UPSIDE_DOWN, count).nonzero()[:, 0].tolist():
-            view, middle = view.upside_down(turned), middle.clone()
-            for image in (depth, winner):
-                image[turned] = image[turned].flip(1, 2)
-            middle[turned, :2] *= -1
-            every[turned, :, :, :2] *= -1
-        label = torch.tensor([meaning for _, meaning in layers], device=chance.device)[winner]
+        turned = chance.flag(_UPSIDE_DOWN, count)
+        view, middle = view.upside_down(turned), middle.clone()
+        for image in (depth, winner):
+            image[turned] = image[turned].flip(1, 2)
+        middle[turned, :2] *= -1
+        every[turned, :, :, :2] *= -1
+        label = torch.tensor(layer_labels, device=chance.device)[winner]
         visible = depth < FAR
         measured, sensor = measure(chance, depth, view)
         if not whole:
             inside = ~cut(chance, view)
             measured, visible = measured * inside, visible & inside
-        measured, gone = keep_skin(chance, measured, winner)
+        measured, gone = keep_skin(chance, measured, winner, skin_probabilities)
         visible = visible & ~gone
         label = torch.where(visible, label, torch.zeros_like(label))
         shown = [((winner == 1 + hand) & visible).flatten(1).sum(1) for hand in range(2)]

@@ -1,5 +1,7 @@
 """Images in which only what has the colour of skin is left: the program looks for hands in such images, too (keep_skin
 in stages/detection/depth_view.h)."""
+from typing import Sequence
+
 import torch
 from torch import Tensor
 
@@ -8,17 +10,16 @@ from .sensors import smooth
 
 FAR_AWAY = 3.0  # depth of everything else, as in the program [m]
 _SHARE = 0.25  # probability that an image is such a one
-# Probabilities that a surface has the colour of skin: of scenery, hand, other hand, arm, object, and bodies or feet.
-_SKIN = (0.0, 1.0, 1.0, 0.5, 0.15, 0.5)
 
 
-def keep_skin(chance: Chance, depth: Tensor, surface: Tensor) -> tuple[Tensor, Tensor]:
+def keep_skin(chance: Chance, depth: Tensor, surface: Tensor, probabilities: Sequence[float]) -> tuple[Tensor, Tensor]:
     """`depth` [B, H, W, m], in some images with all else at FAR_AWAY, and what was moved there [B, H, W]. `surface` [B, H,
-    W]: index into _SKIN of what is seen. Patches and single pixels of the hand miss the colour, and others have it."""
+    W]: index of what is seen into the `probabilities` that it has the colour of skin. Patches and single pixels of what has
+    it miss it, and others have it."""
     count = len(depth)
     only_skin = chance.flag(_SHARE, count)[:, None, None]
     skin = torch.zeros_like(only_skin)
-    for kind, probability in enumerate(_SKIN):
+    for kind, probability in enumerate(probabilities):
         skin = skin | (surface == kind) & chance.flag(probability, count)[:, None, None]
     missing = _speckles(chance, depth, 0.8, 0.12)
     false = _speckles(chance, depth, 1.0, 0.04)

@@ -34,8 +34,8 @@ class View:
         y = (v - self.cy[:, None, None]) / self.focal[:, None, None]
         return torch.stack([x, y, torch.ones_like(x)]).permute(1, 2, 3, 0)  # x, y and z each lie together in memory
 
-    def upside_down(self, which: list[int]) -> "View":
-        """These cameras, of which those with the indices `which` are turned by 180 degrees about their axes."""
+    def upside_down(self, which: Tensor) -> "View":
+        """These cameras, of which those for which `which` [B] is true are turned by 180 degrees about their axes."""
         rows, columns = self.size
         cx, cy = self.cx.clone(), self.cy.clone()
         cx[which], cy[which] = columns - 1 - cx[which], rows - 1 - cy[which]
