@@ -7,6 +7,7 @@ from pathlib import Path
 
 import surroundings  # first: skips without PyTorch
 import torch
+from average import average
 from batches import Supply, batches
 from evaluate import evaluate
 from examples import MAP_OFFSET, MAP_STEP, crop_input, drawn, full_input, generator_for, make_examples
@@ -117,6 +118,24 @@ class Networks(unittest.TestCase):
             for mode, tolerance in ((False, 1e-4), (True, 0.1)):  # while training, each batch has a mean of its own
                 for ours, theirs in zip(same.train(mode)(images), wanted):
                     self.assertLess((ours - theirs).abs().max(), tolerance * (1 + theirs.abs().max()))
+
+    def test_their_mean_has_the_mean_of_each_weight(self):
+        images = make_examples(generator_for(6, "cpu", None, 500), "crop", 24).image
+        with tempfile.TemporaryDirectory() as folder:
+            folders, networks = [Path(folder, name) for name in "ab"], [make_network("crop") for _ in "ab"]
+            for one, network in zip(folders, networks):
+                one.mkdir()
+                network.train()(images)  # sets the means and variances of the normalisations
+                export(network, "crop", one)
+            same, mean = average("crop", folders[:1]), average("crop", folders)
+        with torch.no_grad():
+            for ours, theirs in zip(same.eval()(images), networks[0](images)):
+                self.assertLess((ours - theirs).abs().max(), 1e-4)
+        for layer in (lambda network: network.maps, lambda network: network.side):
+            for part in ("weight", "bias"):
+                first, second = (getattr(layer(network), part) for network in networks)
+                self.assertLess((getattr(layer(mean), part) - (first + second) / 2).abs().max(), 1e-6)
+                self.assertGreater((first - second).abs().max(), 1e-3)
 
     def test_their_outputs_have_the_shapes_of_the_interface(self):
         for name, size, joints in (("full", (120, 160), 1), ("crop", (96, 96), 21)):
