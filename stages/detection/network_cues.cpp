@@ -9,9 +9,9 @@ namespace barehand {
 namespace {
 
 // Weights of the logistic model that tells hands from other objects, one for each cue.
-constexpr double kOfPalm = 1.85, kOfSide = 0.35, kOfLabels = 0.55;
+constexpr double kOfPalm = 0.5, kOfSide = 1.3, kOfLabels = 1.0;
 // Limits to which the cues are clamped, because values beyond them carry no further information.
-constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 4;
+constexpr double kSurestPalm = 0.95, kLeastPalm = 0.01, kClearSide = 6;
 
 /// Logarithm of the probability that has these log odds.
 double log_probability(double log_odds) {

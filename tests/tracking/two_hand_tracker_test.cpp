@@ -367,13 +367,15 @@ TEST_F(StartOfDetectedHand, IsRefusedAtOnceWhereTheNetworksAreSureOfTheOtherSide
 }
 
 /// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
-/// model explains well.
+/// model explains well. `labels`: mean log odds of the cells labelled as hand, negative if hand is the likeliest of
+/// four labels, yet less probable than the others together.
 class AmbiguousDetection : public StartOfDetectedHand {
  protected:
   /// The number of the first of 40 frames in which a hand is tracked; 0 if there is none.
-  int first_tracked(double aside, double palm = 0.7) {
-    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, palm, 2));
+  int first_tracked(double aside, float labels = 1) {
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, 0.7, labels));
     auto joints = std::make_shared<DetectedHand>(*hand->detected);
+    joints->right_log_odds = 0.3;
     for (DetectedJoint& joint : joints->joints) joint.position.x() += aside;
     hand->detected = joints;
     TwoHandTracker tracker(test::quick_tracker(), {right_}, 1, workers_);
@@ -386,14 +388,14 @@ class AmbiguousDetection : public StartOfDetectedHand {
 TEST_F(AmbiguousDetection, IsAHandWhereAPoseExplainsIt) { EXPECT_EQ(first_tracked(0), 1); }
 
 TEST_F(AmbiguousDetection, IsAHandAfterSomeFramesWhereOneDoesNotDecide) {
-  const int first = first_tracked(0.025, 0.5);
+  const int first = first_tracked(0.025, 2.2);
   EXPECT_GT(first, 1);
   EXPECT_LT(first, 20);
 }
 
 TEST_F(AmbiguousDetection, IsNoneWhereThePoseThatExplainsItIsAnother) { EXPECT_EQ(first_tracked(0.045), 0); }
 
-TEST_F(AmbiguousDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, 0.3), 0); }
+TEST_F(AmbiguousDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, -2), 0); }
 
 }  // namespace
 }  // namespace barehand

@@ -10,15 +10,15 @@ namespace barehand {
 namespace {
 
 // Weights of the logistic model that tells hands from other objects, one for each cue besides the networks' outputs.
-constexpr double kBias = -1.0, kOfMisfit = -0.84, kOfScore = -1.57, kOfDistance = -2.3;
-// What differs where only the colour of skin was looked at: it is more probably a hand, but whatever has that colour is
-// explained well by some pose of a hand, so that only the distance tells one.
-constexpr double kOfSkin = 0.5, kOfPoseOnSkin = -2.0, kOfDistanceOnSkin = -3.45;
+constexpr double kBias = -5.6, kOfMisfit = -1.6, kOfScore = -2.7, kOfDistance = -2.0;
+// Added with the pose, instead of the score's part, where only the colour of skin was looked at: whatever has that
+// colour is explained well by some pose of a hand, so that only the distance tells a hand.
+constexpr double kOfPoseOnSkin = -0.5;
 // Lower limit of the misfit, because values below it carry no further information.
 constexpr double kLeastMisfit = 0.05;
 // Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
 // both for which they change the log odds neither way (kReference) [m].
-constexpr double kBestScore = 0.0008, kReferenceScore = 0.001, kLeastDistance = 0.002, kReferenceDistance = 0.015;
+constexpr double kBestScore = 0.0008, kReferenceScore = 0.0025, kLeastDistance = 0.002, kReferenceDistance = 0.015;
 // The distance from the detected joints counts fully if the segments' mean matched fraction is at least this.
 constexpr double kAllMatched = 0.3;
 
@@ -33,18 +33,21 @@ constexpr std::uint32_t kFaded = 100;  // number of frames after which a place i
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
   HandCues cues;
   cues.networks = network_cues(detected);
-  cues.skin_only = detected.skin_only;
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
-  // proportions.
-  const auto fit = fit_size_to_hand(profile, detected, kScaleDeviation);
-  cues.misfit = fit ? fit->cost : INFINITY;
+  // proportions. Where the side is open, the better one counts, so that both trackers see the same evidence.
+  cues.misfit = INFINITY;
+  for (const Handedness side : {Handedness::right, Handedness::left}) {
+    if (!detected.may_be(side)) continue;
+    const HandProfile& of_side = side == profile.handedness ? profile : mirrored(profile);
+    const auto fit = fit_size_to_joints(of_side, detected.joints_of(side), kScaleDeviation);
+    if (fit) cues.misfit = std::min(cues.misfit, fit->cost);
+  }
   return cues;
 }
 
 double log_odds_of_hand(const HandCues& cues) {
-  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit)) +
-         (cues.skin_only ? kOfSkin : 0);
+  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
 }
 
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {
@@ -53,8 +56,9 @@ double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, 
   const double distance =
       std::max(kLeastDistance, mean_distance(profile, refined.pose, detected.joints_of(profile.handedness)));
   const double too_far = std::min(1.0, matched / kAllMatched) * std::log(distance / kReferenceDistance);
-  if (detected.skin_only) return kOfPoseOnSkin + kOfDistanceOnSkin * too_far;
-  return kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore) + kOfDistance * too_far;
+  const double of_score =
+      detected.skin_only ? kOfPoseOnSkin : kOfScore * std::log(std::max(kBestScore, refined.score) / kReferenceScore);
+  return of_score + kOfDistance * too_far;
 }
 
 double HandEvidence::add(std::uint32_t frame, const Eigen::Vector3d& centre, double log_odds) {

@@ -14,8 +14,7 @@ namespace barehand {
 /// Cues on whether a detected hand really is a hand, before a pose is tried.
 struct HandCues {
   NetworkCues networks;
-  double misfit = 0;       ///< KinematicFit::cost of the joints, with a hand of any size
-  bool skin_only = false;  ///< DetectedHand::skin_only
+  double misfit = 0;  ///< KinematicFit::cost of the joints, with a hand of any size
 };
 /// The cues of a detected hand. `profile` may be of either side: it is mirrored if necessary.
 HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile);

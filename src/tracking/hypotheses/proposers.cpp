@@ -18,10 +18,10 @@ namespace {
 constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the random seeds of two attempts in one frame
 
 // Thresholds on the log odds that a detection is a hand (HandEvidence).
-constexpr double kPossibleHand = 2.5,  // below, the detection is ignored
-    kProvenHand = 3.5,                 // from here on, with the evidence of the pose and earlier frames, it is a hand
-    kCertainHand = 7.5;                // from here on, the networks alone suffice
-constexpr double kAwaited = 2.5;       // is added to the log odds while a lost hand is awaited
+constexpr double kPossibleHand = 0,  // below, the detection is ignored
+    kProvenHand = 3,                 // from here on, with the evidence of the pose and earlier frames, it is a hand
+    kCertainHand = 7;                // from here on, the networks alone suffice
+constexpr double kAwaited = 2;       // is added to the log odds while a lost hand is awaited
 
 }  // namespace
 
