@@ -194,10 +194,17 @@ bool TwoHandTracker::searched(int k, const HandObservation& observation) const {
   return !follows(k, observation) && !track.start_is_given && !track.tentative && track.status != TrackStatus::tracking;
 }
 
+/// A hand is not searched where the networks tell that there is one of the other side. Its pose may explain the data
+/// better by chance, above all that of a hand behind what it holds.
+bool TwoHandTracker::may_show(int k, const HandObservation& observation) const {
+  return !observation.detected || observation.detected->may_be(view(k).profile->handedness);
+}
+
 void TwoHandTracker::search_one(int k, const HandObservations& observations, HandEstimates& out) {
   std::optional<Hypothesis> found;
   const TrackView track = view(k);
-  if (!track.start_is_given && (observations[k]->detected || frame_ % kSearchEvery == 0))
+  const bool due = observations[k]->detected || frame_ % kSearchEvery == 0;
+  if (!track.start_is_given && due && may_show(k, *observations[k]))
     found = hands_[k]->search(*observations[k], track.effort, track.attempts(track.effort));
   check_found_size(k, *observations[k], found);
   out[k] = hands_[k]->process(*observations[k], std::move(found));
@@ -228,7 +235,8 @@ void TwoHandTracker::search_both(HandObservations& observations, HandEstimates& 
 
   // Each side searches every region once, and again with more attempts where neither side is confident.
   const auto search_observation = [&](int j, int attempts) {
-    for (int k = 0; k < 2; ++k) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
+    for (int k = 0; k < 2; ++k)
+      if (may_show(k, *observations[j])) found[k][j] = hands_[k]->search(*observations[j], effort, attempts);
   };
   for (int j = 0; j < 2; ++j) {
     search_observation(j, 1);

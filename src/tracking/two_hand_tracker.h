@@ -60,6 +60,8 @@ class TwoHandTracker {
   bool exchanged(const HandObservations& observations) const;
   // Whether the k-th hand is searched in this observation instead of being tracked.
   bool searched(int k, const HandObservation& observation) const;
+  // Whether the networks, if they saw a hand here, allow that it is the k-th one.
+  bool may_show(int k, const HandObservation& observation) const;
   void search_one(int k, const HandObservations& observations, HandEstimates& out);
   void search_both(HandObservations& observations, HandEstimates& out);
 

@@ -366,6 +366,20 @@ TEST_F(StartOfDetectedHand, IsRefusedAtOnceWhereTheNetworksAreSureOfTheOtherSide
   EXPECT_FALSE(start_with(-10));
 }
 
+TEST_F(StartOfDetectedHand, IsOfNoSideThatTheNetworksExcludeThoughItsPoseExplainsTheData) {
+  const auto left_starts = [&](double right_log_odds, Handedness side) {
+    auto hand = std::make_shared<HandObservation>(*detected(*left_, 0.15));
+    auto joints = std::make_shared<DetectedHand>(*hand->detected);
+    joints->right_log_odds = right_log_odds;
+    joints->side = side;
+    hand->detected = joints;
+    TwoHandTracker tracker(test::quick_tracker(), {right_, left_}, 1, workers_);
+    return next(tracker, hand, nothing(), {})[kLeft]->status == TrackStatus::tracking;
+  };
+  EXPECT_TRUE(left_starts(-5, Handedness::left));
+  EXPECT_FALSE(left_starts(5, Handedness::right));
+}
+
 /// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
 /// model explains well. `labels`: mean log odds of the cells labelled as hand, negative if hand is the likeliest of
 /// four labels, yet less probable than the others together.
