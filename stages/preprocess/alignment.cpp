@@ -16,7 +16,7 @@ constexpr float kOutside = -0.6f;     // weight of a candidate cell in the ring;
 constexpr float kBlur = 0.008f;       // width of the transition between the weights inside and in the ring [m]
 constexpr float kHidden = 0.5f;       // value of a cell where a nearer surface could hide the hand; a candidate has 1
 constexpr float kLeastScore = 0.3f;   // lowest score that is accepted; a perfect overlap has a score of 1
-constexpr float kMotionCost = 0.15f;  // reduction of the score for the largest motion allowed
+constexpr float kMotionCost = 0.25f;  // reduction of the score for the largest motion allowed
 
 /// The silhouette of a hand as weights of cells: positive inside, negative in a ring around it, and zero beyond the
 /// ring and on the forearm's side. Its first pixel is cell (u0, v0) of the grid.
