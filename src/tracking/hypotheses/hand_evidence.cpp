@@ -36,13 +36,12 @@ HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
 
   // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
   // proportions. Where the side is open, the better one counts, so that both trackers see the same evidence.
-  cues.misfit = INFINITY;
-  for (const Handedness side : {Handedness::right, Handedness::left}) {
-    if (!detected.may_be(side)) continue;
-    const HandProfile& of_side = side == profile.handedness ? profile : mirrored(profile);
-    const auto fit = fit_size_to_joints(of_side, detected.joints_of(side), kScaleDeviation);
-    if (fit) cues.misfit = std::min(cues.misfit, fit->cost);
-  }
+  const auto misfit = [&](const HandProfile& of) {
+    const auto fit = fit_size_to_hand(of, detected, kScaleDeviation);
+    return fit ? fit->cost : INFINITY;
+  };
+  cues.misfit = misfit(profile);
+  if (detected.other_joints) cues.misfit = std::min(cues.misfit, misfit(mirrored(profile)));
   return cues;
 }
 
