@@ -98,4 +98,11 @@ inline DetectedHand detected_hand(const HandProfile& profile, const HandPose& po
   return hand;
 }
 
+/// Gives a detected hand the joints of a foot: toes without length.
+inline void make_foot(DetectedHand& hand) {
+  for (int finger = 0; finger < kFingerCount; ++finger)
+    for (int k = 1; k < 4; ++k)
+      hand.joints[landmark_of(finger, k)].position = hand.joints[landmark_of(finger, 0)].position;
+}
+
 }  // namespace barehand::test

@@ -69,9 +69,7 @@ TEST_P(CuesOfDetection, AreTheSameForBothHandsWhereTheSideIsOpen) {
 
 TEST_P(CuesOfDetection, JointsWithoutAHandsProportionsFitNone) {
   DetectedHand foot = detected();
-  for (int finger = 0; finger < kFingerCount; ++finger)  // a foot: toes without length
-    for (int k = 1; k < 4; ++k)
-      foot.joints[landmark_of(finger, k)].position = foot.joints[landmark_of(finger, 0)].position;
+  test::make_foot(foot);
   EXPECT_GT(hand_cues(foot, *profile_).misfit, 0.5);
 }
 

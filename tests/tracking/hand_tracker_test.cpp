@@ -239,11 +239,9 @@ TEST_F(GivenStart, WhatIsHardlyAHandIsNotTakenForALostOne) {
   // The networks see something that hangs down.
   const HandPose elsewhere = test::turned(pose_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
   HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), elsewhere);
-  auto detected = test::detected_hand(*profile_, elsewhere, 0.1, 0.005, 0.2, 1);
-  for (int finger = 0; finger < kFingerCount; ++finger)  // a foot: toes without length
-    for (int k = 1; k < 4; ++k)
-      detected.joints[landmark_of(finger, k)].position = detected.joints[landmark_of(finger, 0)].position;
-  seen.detected = std::make_shared<const DetectedHand>(detected);
+  DetectedHand foot = test::detected_hand(*profile_, elsewhere, 0.1, 0.005, 0.2, 1);
+  test::make_foot(foot);
+  seen.detected = std::make_shared<const DetectedHand>(foot);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(next(seen)->status, TrackStatus::lost);
   seen.detected = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, elsewhere, 5, 0.005, 0.7, 5));
   next(seen);
