@@ -23,8 +23,8 @@ def average(name: str, folders: list[Path]) -> HandNetwork:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=Path, help="folder for full.onnx, crop.onnx and nets.json")
-    parser.add_argument("--crop", type=Path, nargs="+", required=True, metavar="FOLDER", help="of whose crop.onnx the mean is taken")
-    parser.add_argument("--full", type=Path, nargs="+", required=True, metavar="FOLDER", help="of whose full.onnx the mean is taken")
+    for name in SIZES:
+        parser.add_argument(f"--{name}", type=Path, nargs="+", required=True, metavar="FOLDER", help=f"of whose {name}.onnx the mean is taken")
     parser.add_argument("--version", default="2.0", help="that nets.json states (default: 2.0)")
     options = parser.parse_args()
 
