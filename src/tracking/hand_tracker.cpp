@@ -1,12 +1,20 @@
 // Tracks one hand: follows or searches it in each frame, and chooses one of the hypotheses.
 #include "tracking/hand_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "stages/segment_tracker/make_observer.h"
 
 namespace barehand {
+namespace {
+
+bool sees_nothing(const RefinedPose& refined) {
+  return std::ranges::all_of(refined.matched, [](double fraction) { return fraction == 0; });
+}
+
+}  // namespace
 
 HandTracker::HandTracker(const TrackerParams& params, std::shared_ptr<const HandProfile> profile, std::uint64_t seed,
                          Workers& workers, std::shared_ptr<spdlog::logger> log, HandIds ids,
@@ -125,6 +133,8 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
     evidence.score = choice_.score_with_detection(observation, person_.profile(), best->refined);
     const bool confirms = track_.tentative() && best->prediction;
     evidence.to_be_confirmed = track_.needs_confirmation(*evidence.score, confirms, context_.params.choice);
+    // The frame may show only something else, for example in front of the sensor before the hand was found.
+    if (best->prediction && sees_nothing(best->refined)) evidence.hand_pixels = 0;
   }
 
   // Update the state machine, and restart or clear the motion model when the phase requires it.

@@ -248,6 +248,20 @@ TEST_F(GivenStart, WhatIsHardlyAHandIsNotTakenForALostOne) {
   EXPECT_EQ(next(seen)->status, TrackStatus::tracking);
 }
 
+TEST_F(GivenStart, AFrameThatShowsOnlySomethingElseIsAsOneWithoutData) {
+  tracker_.apply(StartAt{pose_});
+  ASSERT_EQ(next(*hand_)->status, TrackStatus::tracking);
+  const HandPose elsewhere = test::turned(test::facing_pose(*profile_, 0.9), {0, 0, 170 * kDegree}, {0, 0, 0.5});
+  HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), elsewhere);
+  DetectedHand foot = test::detected_hand(*profile_, elsewhere, 0.1, 0.005, 0.2, 1);
+  test::make_foot(foot);
+  seen.detected = std::make_shared<const DetectedHand>(foot);
+  const HandEstimatePtr held = next(seen);
+  EXPECT_EQ(held->status, TrackStatus::holding);
+  EXPECT_LT((held->segments[kPalm].T_camera_segment.t - pose_[kPalm].t).norm(), 0.005);
+  EXPECT_EQ(next(*hand_)->status, TrackStatus::tracking);
+}
+
 TEST_F(GivenStart, EveryDecisionIsKept) {
   tracker_.apply(StartAt{pose_});
   EXPECT_TRUE(next(*hand_)->decisions.empty()) << "nothing stood against the given pose";
