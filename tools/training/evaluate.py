@@ -93,7 +93,7 @@ def _joints(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
     for index, kind in enumerate(KINDS):
         figures[f"joints, {kind}, mm"] = errors[sensor == index].flatten()
     figures["sides right"] = side[truth.seen[:, 0]]
-    figures["share of windows without a hand that is called one"] = hand[truth.scenes.pixels[:, 0] == 0]
+    figures["share of a window without a hand that is labelled as hand"] = hand[truth.scenes.pixels[:, 0] == 0]
     return figures
 
 

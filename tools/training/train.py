@@ -2,7 +2,8 @@
 """Trains the networks that find hands, measures them on unseen scenes, and writes a folder that the program reads.
 
   train.py OUT                 half an hour on a GPU
-  train.py OUT --resume configs/nets    an hour on two cores of a processor: goes on from the shipped networks
+  train.py OUT --resume configs/nets --network crop --minutes 60
+                               on a processor: goes on from a shipped network
   train.py OUT --smoke         a minute or two on a processor: shows that the training works, not how good it is
 """
 import argparse
