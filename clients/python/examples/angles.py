@@ -4,6 +4,7 @@
                                one, LCM, whose network LCM_DEFAULT_URL names"""
 import itertools
 import math
+import os
 import sys
 
 import barehand
@@ -27,6 +28,8 @@ def main(*arguments):
             print(text(hand), flush=True)
     except barehand.Error as error:
         sys.exit(str(error))
+    except BrokenPipeError:  # what read the output, such as `head`, has ended
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python flushes once more at its end
 
 
 main(*sys.argv[1:])
