@@ -133,7 +133,7 @@ TrackStatus HandTracker::update_state(const HandObservation& observation, const 
     evidence.score = choice_.score_with_detection(observation, person_.profile(), best->refined);
     const bool confirms = track_.tentative() && best->prediction;
     evidence.to_be_confirmed = track_.needs_confirmation(*evidence.score, confirms, context_.params.choice);
-    // The frame may show only something else, for example in front of the sensor before the hand was found.
+    // The observation may be of something else, for example until the first pose has come back to preprocessing.
     if (best->prediction && sees_nothing(best->refined)) evidence.hand_pixels = 0;
   }
 
