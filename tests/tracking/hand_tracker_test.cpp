@@ -216,6 +216,14 @@ class GivenStart : public testing::Test {
   HandEstimatePtr next(const HandObservation& observation) {
     return tracker_.process(*test::stamped(observation, utime_ += 33'000));
   }
+  /// The observation of something that looks like a hand in this pose, but that the networks do not take for one.
+  HandObservation foot_like(const HandPose& pose) const {
+    HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), pose);
+    DetectedHand foot = test::detected_hand(*profile_, pose, 0.1, 0.005, 0.2, 1);
+    test::make_foot(foot);
+    seen.detected = std::make_shared<const DetectedHand>(foot);
+    return seen;
+  }
 
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand();
   const HandPose pose_ = test::facing_pose(*profile_, 0.5);
@@ -238,10 +246,7 @@ TEST_F(GivenStart, WhatIsHardlyAHandIsNotTakenForALostOne) {
 
   // The networks see something that hangs down.
   const HandPose elsewhere = test::turned(pose_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
-  HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), elsewhere);
-  DetectedHand foot = test::detected_hand(*profile_, elsewhere, 0.1, 0.005, 0.2, 1);
-  test::make_foot(foot);
-  seen.detected = std::make_shared<const DetectedHand>(foot);
+  HandObservation seen = foot_like(elsewhere);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(next(seen)->status, TrackStatus::lost);
   seen.detected = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, elsewhere, 5, 0.005, 0.7, 5));
   next(seen);
@@ -252,11 +257,7 @@ TEST_F(GivenStart, AFrameThatShowsOnlySomethingElseIsAsOneWithoutData) {
   tracker_.apply(StartAt{pose_});
   ASSERT_EQ(next(*hand_)->status, TrackStatus::tracking);
   const HandPose elsewhere = test::turned(test::facing_pose(*profile_, 0.9), {0, 0, 170 * kDegree}, {0, 0, 0.5});
-  HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), elsewhere);
-  DetectedHand foot = test::detected_hand(*profile_, elsewhere, 0.1, 0.005, 0.2, 1);
-  test::make_foot(foot);
-  seen.detected = std::make_shared<const DetectedHand>(foot);
-  const HandEstimatePtr held = next(seen);
+  const HandEstimatePtr held = next(foot_like(elsewhere));
   EXPECT_EQ(held->status, TrackStatus::holding);
   EXPECT_LT((held->segments[kPalm].T_camera_segment.t - pose_[kPalm].t).norm(), 0.005);
   EXPECT_EQ(next(*hand_)->status, TrackStatus::tracking);
