@@ -4,6 +4,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "core/glob.h"
+#include "drivers/lcm/fragment_filter.h"
 
 namespace barehand {
 
@@ -17,6 +18,7 @@ LcmListener::LcmListener(std::shared_ptr<LcmBus> bus, const std::string& channel
     : bus_(std::move(bus)), handler_(std::move(handler)) {
   subscription_ = lcm_subscribe(bus_->lcm().getUnderlyingLCM(), glob_to_regex(channels).c_str(), &hand_on, this);
   broken_ = subscription_ == nullptr;  // it is null if liblcm rejected the pattern
+  drop_damaged_fragments();
   thread_ = std::thread([this] { run(); });
 }
 

@@ -1,5 +1,7 @@
 // Tests LCM over UDP on the loopback interface. To be started by with_multicast.sh.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include <lcm/lcm-cpp.hpp>
 
@@ -15,7 +17,9 @@ namespace {
 constexpr std::chrono::milliseconds kLong(20'000);  // a timeout that is reached only by failing tests
 
 /// Every process uses another port, so that tests that run at the same time do not receive each other's messages.
-std::string url() { return "udpm://239.255.76.67:" + std::to_string(20'000 + ::getpid() % 40'000) + "?ttl=0"; }
+int port() { return 20'000 + ::getpid() % 40'000; }
+constexpr const char* kGroup = "239.255.76.67";
+std::string url() { return std::string("udpm://") + kGroup + ":" + std::to_string(port()) + "?ttl=0"; }
 
 std::unique_ptr<LcmBus> connect() {
   auto bus = LcmBus::open(url());
@@ -56,6 +60,31 @@ TEST(Udp, AForeignMessageIsSkippedAndTheNextFrameArrives) {
   ASSERT_TRUE(sender->send("RGBD_FRAME", encode_message(command_t{}), 0));
   EXPECT_TRUE(std::holds_alternative<SkippedFrame>(source->next(kLong)));
   ASSERT_TRUE(sender->send("RGBD_FRAME", frame_bytes(test_frame(2)), 0));
+  EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(kLong)));
+}
+
+/// Sends a fragment of a message of 1000 bytes on RGBD_FRAME that claims to begin at `offset`.
+void send_fragment(std::uint32_t offset) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(port()));
+  ASSERT_EQ(inet_pton(AF_INET, kGroup, &to.sin_addr), 1);
+  std::string datagram;
+  for (const std::uint32_t word : {0x4c433033u, 1u, 1000u, offset, offset == 0 ? 3u : 0x10003u})
+    for (int shift = 24; shift >= 0; shift -= 8) datagram += static_cast<char>(word >> shift);
+  if (offset == 0) datagram += std::string("RGBD_FRAME") + '\0';
+  datagram += std::string(300, 'x');
+  EXPECT_GT(sendto(socket, datagram.data(), datagram.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof(to)), 0);
+  ::close(socket);
+}
+
+TEST(Udp, AFragmentFromOutsideItsMessageIsDropped) {
+  auto sender = connect();
+  auto source = LcmLiveSource::open(url()).value();
+  send_fragment(0);
+  send_fragment(0xffffff00);  // liblcm would write 256 bytes before its buffer
+  ASSERT_TRUE(sender->send("RGBD_FRAME", frame_bytes(test_frame(1, 640, 480)), 0));
   EXPECT_TRUE(std::holds_alternative<FramePtr>(source->next(kLong)));
 }
 
