@@ -50,6 +50,7 @@ TEST(CommandLine, WrongUsageIsExitCode2) {
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--threads", "two"}).exit_code, 2);
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--start", "3"}).exit_code, 2) << "systemd would start it for ever";
   EXPECT_EQ(barehand({"track", "--source", "lcm", "--lcm-url", "foo"}).exit_code, 2);
+  EXPECT_EQ(barehand({"track", "--source", "sim:fist,live=true", "--lcm-url", "foo"}).exit_code, 2);
   EXPECT_EQ(barehand({"view", "--lcm", "--lcm-url", "foo"}).exit_code, 2);
   EXPECT_EQ(barehand({"bench", "--source", "lcm"}).exit_code, 2);
 }

@@ -164,6 +164,21 @@ TEST_F(Service, RefusesABrokenConfigurationAndGoesOnWithTheOldOne) {
   EXPECT_THAT(child.output(), AllOf(HasSubstr("unknown key 'run.sed'"), HasSubstr(" 0 failed")));
 }
 
+TEST_F(Service, DoesNotTakeAShippedConfigurationForOneThatIsGone) {
+  test::write_text(folder_ / "default.yaml", test::quick_config());
+  ChildProcess child({"sh", "-c",
+                      "cd '" + folder_.path() +
+                          "'; exec " BAREHAND_PROGRAM " track --config default.yaml --no-publish --source " +
+                          std::string(kLiveHand)});
+  EXPECT_FALSE(socket_.wait_for("READY=1").empty());
+  std::filesystem::remove(folder_ / "default.yaml");
+  child.signal(SIGHUP);
+  EXPECT_FALSE(socket_.wait_for("RELOADING=1").empty());
+  EXPECT_THAT(socket_.wait_for("READY=1"), HasSubstr("STATUS=configuration not reloaded"));
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.finish(), 0) << child.output();
+}
+
 TEST_F(Service, ReloadsWhatCanChangeAndSaysWhatCannot) {
   ChildProcess child(command());
   EXPECT_FALSE(socket_.wait_for("READY=1").empty());

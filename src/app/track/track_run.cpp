@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <filesystem>
 #include <iostream>
 #include <stop_token>
 
@@ -376,7 +377,8 @@ PipelineHealth TrackRun::with_view(PipelineHealth health) const {
 }
 
 TrackFailure TrackRun::no_network(const Error& error) const {
-  if (!stop_.stop_requested()) return {error, kExitFailure};
+  // A network may come up later; another URL that cannot be opened now never can.
+  if (!stop_.stop_requested()) return {error, LcmBus::is_network(options_.lcm_url) ? kExitFailure : kExitUsage};
   return stopped("stopped while waiting for the LCM network").value();
 }
 
@@ -530,7 +532,10 @@ tl::expected<TrackOutcome, TrackFailure> track(const TrackOptions& options, cons
   return run.run();
 }
 
-int run_track(const TrackOptions& options) {
+int run_track(const TrackOptions& given) {
+  // A file that is gone at a reload must not be taken for a shipped one of the same name.
+  TrackOptions options = given;
+  if (const auto path = find_config(given.config)) options.config = std::filesystem::absolute(*path);
   const auto config = configuration(options);
   if (!config) return failed("track", config.error(), kExitUsage);
   if (!options.print_config.empty()) {
