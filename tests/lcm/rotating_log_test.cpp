@@ -78,12 +78,14 @@ TEST_F(Rotating, TheOldestFilesMakeRoomWithinTheQuota) {
     EXPECT_LE(used, 5000u);
   }
   EXPECT_THAT(stamps(), ElementsAre(17, 18, 19, 20));
+  EXPECT_EQ(log->removed_events(), 16);
 }
 
 TEST_F(Rotating, AnotherRunGoesOnWithTheSetAndItsQuota) {
   for (int run = 0; run < 3; ++run) {
     const auto log = open({.max_bytes = 2000, .quota = 5000});
     for (int i = 0; i < 2; ++i) send(*log, 10 * run + i);
+    EXPECT_EQ(log->removed_events(), 0) << "the removed ones are of an earlier run";
   }
   EXPECT_THAT(names(), ElementsAre(HasSubstr("take-000002-"), HasSubstr("take-000003-")));
   EXPECT_THAT(stamps(), ElementsAre(10, 11, 20, 21));

@@ -87,6 +87,7 @@ TEST_F(Record, ASetIsWithinItsQuotaAndEachFileReplays) {
   while (newest() < "take-000008") std::this_thread::sleep_for(std::chrono::milliseconds(20));
   child.signal(SIGTERM);
   EXPECT_EQ(child.finish(), 0) << child.output();
+  EXPECT_THAT(child.output(), HasSubstr("take-*.lcmlog, of which the oldest "));
   std::uintmax_t bytes = 0;
   std::int64_t last = -1;
   for (const fs::path& path : logs(folder_ / "set")) {

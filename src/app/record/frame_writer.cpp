@@ -105,7 +105,12 @@ Result<std::unique_ptr<FrameWriter>> open_frame_writer(const std::string& path, 
   if (options.rotation) {
     auto log = RotatingLog::create(path, *options.rotation, *options.clock);
     if (!log) return tl::unexpected(log.error());
-    return std::make_unique<LogFrameWriter>([path] { return pattern_of_set(path); }, options, std::move(*log));
+    const auto place = [path, &set = **log] {
+      const std::int64_t removed = set.removed_events();
+      return pattern_of_set(path) +
+             (removed > 0 ? ", of which the oldest " + std::to_string(removed) + " gave way to newer ones" : "");
+    };
+    return std::make_unique<LogFrameWriter>(place, options, std::move(*log));
   }
   if (is_log_path(path)) {
     auto log = LcmLogWriter::create(path, options.overwrite);

@@ -106,6 +106,7 @@ Result<void> RotatingLog::send(const std::string& channel, std::span<const std::
 
   // Give up a file that can no longer be written, so that the next message opens another.
   files_.back().bytes = log_->bytes();
+  files_.back().events = log_->events();
   if (log_->failed()) (void)close();
   return sent;
 }
@@ -143,6 +144,7 @@ bool RotatingLog::remove_oldest() {
   if (files_.size() <= (log_ ? 1u : 0u)) return false;
   std::error_code error;
   fs::remove(files_.front().path, error);
+  removed_events_ += files_.front().events;
   files_.pop_front();  // forget the file even if it could not be removed, so that this is not tried again
   return true;
 }

@@ -45,12 +45,15 @@ class RotatingLog : public MessageSink {
   /// An event that cannot be written is lost; the next one may succeed, in a new file if need be.
   Result<void> send(const std::string& channel, std::span<const std::uint8_t> message, std::int64_t utime) override;
   Result<void> finish() override;
+  /// Number of the events sent that are gone again, since their files gave way to newer ones.
+  std::int64_t removed_events() const { return removed_events_; }
 
  private:
   struct File {
     std::filesystem::path path;
     std::int64_t number;
     std::int64_t bytes;
+    std::int64_t events = 0;  // written by this object
   };
   RotatingLog(std::filesystem::path path, LogRotation rotation, const Clock& clock);
   void finish_abandoned_files() const;
@@ -67,6 +70,7 @@ class RotatingLog : public MessageSink {
   std::deque<File> files_;  ///< in the order of their numbers; the last one is being written while `log_` is open
   std::unique_ptr<LcmLogWriter> log_;
   std::int64_t opened_us_ = 0;
+  std::int64_t removed_events_ = 0;
 };
 
 }  // namespace barehand
