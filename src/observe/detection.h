@@ -56,11 +56,15 @@ struct DetectedJoint {
 
 using DetectedJoints = std::array<DetectedJoint, kLandmarkCount>;
 
+/// From these log odds of the side on, either way, the networks tell it: of most hands they are 4 to 20.
+inline constexpr double kToldSide = 3;
+
 /// One hand that a detection found. Camera frame, metres.
 struct DetectedHand {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of the palm, between wrist and middle knuckle
   /// Probability of a palm from the whole frame's heat map; 1 if the hand was found where tracking predicted it.
   double palm = 0;
+  double hand_log_odds = 0;             ///< log odds of a hand in the window against anything else
   double right_log_odds = 0;            ///< log odds of a right hand against a left one
   Handedness side = Handedness::right;  ///< the joints are those of a hand of this side
   DetectedJoints joints;

@@ -66,6 +66,10 @@ std::unique_ptr<HandTracker> ProfileVerifier::tracker_of_size(double size) const
   return tracker_of(scaled(profile_, size), scaled(*skin_, size));
 }
 
+double ProfileVerifier::own_side_log_odds(const DetectedHand& hand) const {
+  return side_sign(profile_.handedness) * hand.right_log_odds;
+}
+
 void ProfileVerifier::report_other_side() {
   if (side_reported_) return;
   side_reported_ = true;
@@ -90,8 +94,7 @@ bool ProfileVerifier::is_detected_as_other_side(const HandObservation& observati
   own_side_is_sure_ = false;
   if (!observation.detected) return false;
   const DetectedHand& hand = *observation.detected;
-  const double log_odds = -side_sign(profile_.handedness) * hand.right_log_odds;
-  const double sum = other_side_evidence_.add(searched_frames_, hand.centre, log_odds);
+  const double sum = other_side_evidence_.add(searched_frames_, hand.centre, -own_side_log_odds(hand));
   own_side_is_sure_ = sum < -kSureSide;
   if (sum > kSureSide) report_other_side();
   return sum > kSureSide;
@@ -124,6 +127,10 @@ bool ProfileVerifier::is_other_side(const HandObservation& observation, Effort e
 
 void ProfileVerifier::track_mirrored(const HandObservation& observation) {
   Verification& verification = *verification_;
+  if (observation.detected) {
+    ++verification.detected;
+    verification.own_side += own_side_log_odds(*observation.detected);
+  }
   const bool followed = mirrored_->view().status == TrackStatus::tracking;
   const double score = !followed ? INFINITY : verification.mirrored ? verification.mirrored->score : 0;
   const bool search = verification.frames % kSearchAgain == 0 && score > params_.choice.confident_score;
@@ -146,9 +153,12 @@ bool ProfileVerifier::turns_out_other_side(const HandEstimate& own) {
     verification.mirrored_sum += verification.mirrored->score;
   }
 
-  // Decide for a side if it was clearly better over enough frames.
+  // Decide for a side if it was clearly better over enough frames, and for the other one only if the networks did not
+  // tell the profile's side on average.
   const bool enough = verification.compared >= kFewestFrames;
-  const bool other = enough && clearly_better(verification.mirrored_sum, verification.own_sum, kVerificationAdvantage);
+  const bool told = verification.own_side > kToldSide * std::max(1, verification.detected);
+  const bool other =
+      enough && !told && clearly_better(verification.mirrored_sum, verification.own_sum, kVerificationAdvantage);
   const bool same = enough && clearly_better(verification.own_sum, verification.mirrored_sum, kVerificationAdvantage);
 
   if (++verification.frames == kMostFrames || lost || other || same) verification_.reset();

@@ -61,6 +61,8 @@ class ProfileVerifier {
   // Searches with copies of the hand profile that are scaled by about exp(`log_size`). Returns the size of the best one
   // if it explains the observation clearly better than `score` [m].
   std::optional<double> verified_size(const HandObservation& observation, double score, double log_size);
+  // The networks' log odds that a hand is one of the profile's side.
+  double own_side_log_odds(const DetectedHand& hand) const;
   // Reports a hand of the other side, once.
   void report_other_side();
 
@@ -83,6 +85,8 @@ class ProfileVerifier {
   struct Verification {
     int frames = 0, compared = 0;          // number of all frames, and of those in which both sides were tracked
     double own_sum = 0, mirrored_sum = 0;  // sums of the scores of the `compared` frames [m]
+    int detected = 0;                      // number of the frames in which the networks saw the hand
+    double own_side = 0;                   // sum of their log odds that it is one of the profile's side
     HandEstimatePtr mirrored;
   };
   std::optional<Verification> verification_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "sensor/tint.h"
-#include "stages/detection/network_cues.h"
+#include "stages/detection/probable_hands.h"
 
 namespace barehand {
 namespace {

@@ -40,9 +40,12 @@ bool has_shape(const NetworkGraph& graph, const NetworkShape& shape) {
     return found != graph.outputs.end() &&
            graph.values[found->second] == NetworkGraph::Shape{channels, shape.height / step, shape.width / step};
   };
-  const auto side = graph.numbers.find("side");
+  const auto is_number = [&](const char* output) {
+    const auto found = graph.numbers.find(output);
+    return found != graph.numbers.end() && found->second.input != 0;
+  };
   return graph.values[0] == NetworkGraph::Shape{2, shape.height, shape.width} && is("j", shape.maps, 4) &&
-         is("seg", kSurfaceLabelCount, 2) && side != graph.numbers.end() && side->second.input != 0;
+         is("seg", kSurfaceLabelCount, 2) && is_number("side") && (!shape.tells_hands || is_number("hand"));
 }
 
 /// Whether values can be joined in blocks: only the last part of a join may end within a block.
@@ -265,11 +268,18 @@ Result<NetworkOutput> Network::run(const NetworkInput& input, Workers& workers) 
 
   net_->read("j", net_->map);
   net_->read("seg", net_->label);
-  const NetworkOutput result{shape_.maps,      shape_.width / 4,  shape_.height / 4,  net_->map.data(),
-                             shape_.width / 2, shape_.height / 2, net_->label.data(), net_->number("side")};
-  if (!all_finite(net_->map) || !all_finite(net_->label) || !std::isfinite(result.side))
+  const float side = net_->number("side"), hand = shape_.tells_hands ? net_->number("hand") : 0;
+  if (!all_finite(net_->map) || !all_finite(net_->label) || !std::isfinite(side) || !std::isfinite(hand))
     return fail("gives values that are not finite", name_, kNetworkRemedy);
-  return result;
+  return NetworkOutput{shape_.maps,
+                       shape_.width / 4,
+                       shape_.height / 4,
+                       net_->map.data(),
+                       shape_.width / 2,
+                       shape_.height / 2,
+                       net_->label.data(),
+                       side,
+                       hand};
 }
 
 }  // namespace barehand

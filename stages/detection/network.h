@@ -26,14 +26,16 @@ struct NetworkOutput {
   int label_width = 0, label_height = 0;  ///< size of the label planes: half of the input's
   const float* label = nullptr;           ///< logits, one plane per SurfaceLabel
   float side = 0;                         ///< log odds of a right hand
+  float hand = 0;                         ///< log odds of any hand; 0 if the network does not tell
 
   const float* map_plane(int i) const { return map + static_cast<std::size_t>(i) * map_width * map_height; }
   const float* label_plane(int i) const { return label + static_cast<std::size_t>(i) * label_width * label_height; }
 };
 
-/// The input size and the number of heat maps that a network must have.
+/// The input size and the number of heat maps that a network must have, and whether it must tell hands.
 struct NetworkShape {
   int width = 0, height = 0, maps = 0;
+  bool tells_hands = false;
 };
 
 /// One network with its weights, run by oneDNN. Not thread-safe.

@@ -11,7 +11,7 @@ namespace barehand {
 // Inputs and outputs of the two detection networks (docs/nets.md): `full` finds palms in the whole frame, `crop` finds
 // the joints of a hand in a window. Inputs must be made as in the training.
 
-inline constexpr NetworkShape kFullShape{160, 120, 2}, kCropShape{96, 96, 2 * kLandmarkCount};
+inline constexpr NetworkShape kFullShape{160, 120, 2}, kCropShape{96, 96, 2 * kLandmarkCount, true};
 /// Cell i of a heat map lies at input pixel i * kMapStep + kMapOffset.
 inline constexpr double kMapStep = 4, kMapOffset = 1.5;
 

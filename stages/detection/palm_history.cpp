@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/detection/network_cues.h"
-
 namespace barehand {
 namespace {
 
 constexpr double kSame = 0.05;        // a palm that is farther away than this is another one [m]
 constexpr double kSameLogOdds = 0.5;  // a palm's log odds that change by less are the same
+constexpr double kUnlikely = 0;       // log odds of a hand below which a place is unlikely to be one
 constexpr int kSkipAfter = 6;         // count per search in which a place is skipped: most hands are tracked before
 constexpr int kMaxSkipped = 4;        // most searches in a row in which a place is skipped
 constexpr int kRemembered = 5;        // frames without a palm after which a place is forgotten
@@ -43,8 +42,7 @@ void PalmHistory::examined(const Eigen::Vector3d& palm, double probability, cons
   place->palm = palm;
   place->log_odds = log_odds(probability);
   place->last_palm = place->last_examined = search_;
-  // Of what is no hand, the networks mostly do not tell the side.
-  place->unlikely = !found || std::abs(found->right_log_odds) < kToldSide;
+  place->unlikely = !found || found->hand_log_odds < kUnlikely;
   // A place that was read as both sides has been examined twice.
   const int examinations = found && found->other_joints ? 2 : 1;
   place->unlikely_count = place->unlikely ? std::min(kSkipAfter * kMaxSkipped, place->unlikely_count + examinations)

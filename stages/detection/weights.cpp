@@ -10,7 +10,7 @@
 namespace barehand {
 namespace {
 
-constexpr const char* kInterface = "1";  // version of the networks' inputs and outputs (docs/nets.md)
+constexpr const char* kInterface = "2";  // version of the networks' inputs and outputs (docs/nets.md)
 constexpr const char* kRemedy = "install Barehand again, or correct the checksum in nets.json";
 
 /// Reads the file that nets.json names under `key`, and compares its checksum.

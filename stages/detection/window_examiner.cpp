@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "stages/detection/network_cues.h"
 #include "stages/detection/networks.h"
 
 namespace barehand {
@@ -56,6 +55,7 @@ Result<WindowExaminer::Window> WindowExaminer::run_network(const RgbdFrame& fram
   for (int k = 0; k < kLandmarkCount; ++k)
     hand.joints[k] = read_joint(*output, k, view, centre.z(), mirrored, frame.camera);
   hand.centre = 0.5 * (hand.joints[kWristLandmark].position + hand.joints[kMiddleKnuckleLandmark].position);
+  hand.hand_log_odds = output->hand;
   hand.right_log_odds = mirrored ? -output->side : output->side;
   hand.side = side;
   read_labels(*output, view, mirrored, hand.labels);
@@ -81,14 +81,16 @@ Result<std::optional<DetectedHand>> WindowExaminer::examine(const RgbdFrame& fra
   }
 
   // If it is of the other side again, or if the networks cannot tell which of both sides it is, read the window as the
-  // other side, too. The average of the log odds decides the side, and the window for that side gives the joints.
+  // other side, too. The averages of the log odds count, and the window for the side that they decide gives the joints.
   const bool either = !place.side && !place.wanted && std::abs(window->hand.right_log_odds) < kToldSide;
   if ((either || side != window->hand.side) && window->hand.centre.z() > 0) {
     auto other = run_network(frame, window->hand.centre, opposite(window->hand.side), place.skin, workers);
     if (!other) return tl::unexpected(other.error());
-    const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds);
+    const double right = 0.5 * (window->hand.right_log_odds + other->hand.right_log_odds),
+                 is_hand = 0.5 * (window->hand.hand_log_odds + other->hand.hand_log_odds);
     if (side_to_read(right, place) == other->hand.side) std::swap(*window, *other);
     window->hand.right_log_odds = right;
+    window->hand.hand_log_odds = is_hand;
     if (either && std::abs(right) < kToldSide) window->hand.other_joints = other->hand.joints;
   }
   if (window->hand_area < kSmallestHand) return std::nullopt;

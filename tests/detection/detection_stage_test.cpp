@@ -1,7 +1,7 @@
 #include "stages/detection/detection_stage.h"
 
 #include "stages/detection/depth_view.h"
-#include "stages/detection/network_cues.h"
+#include "stages/detection/probable_hands.h"
 #include "support/rendered_person.h"
 
 namespace barehand {
@@ -77,14 +77,10 @@ TEST_F(DetectionStageTest, LooksForTheOtherHandNowAndThen) {
 /// A hand of each side, clearly so.
 std::vector<DetectedHand> right_and_left() {
   std::vector<DetectedHand> hands(2);
-  for (DetectedHand& hand : hands) {
-    hand.labels.label.reset(1, 1, SurfaceLabel::hand);
-    hand.labels.hand_log_odds.reset(1, 1, 4);
-  }
   hands[0].right_log_odds = 5;
-  hands[0].palm = 0.9;
+  hands[0].hand_log_odds = 4;
   hands[1].right_log_odds = -5;
-  hands[1].palm = 0.8;
+  hands[1].hand_log_odds = 3;
   return hands;
 }
 
@@ -100,15 +96,7 @@ TEST(SortByProbability, WithBothHandsWantedTheSurerOneComesFirst) {
   std::vector<DetectedHand> hands = right_and_left();
   std::swap(hands[0], hands[1]);
   sort_by_probability(hands, std::nullopt);
-  EXPECT_EQ(hands[0].palm, 0.9);
-}
-
-TEST(SortByProbability, AHandComesBeforeWhatLooksMoreLikeAPalmAndLessLikeAHand) {
-  std::vector<DetectedHand> hands = right_and_left();
-  hands[0].right_log_odds = 0.1;  // a mug, say
-  hands[0].labels.hand_log_odds.reset(1, 1, 1.5);
-  sort_by_probability(hands, std::nullopt);
-  EXPECT_EQ(hands[0].palm, 0.8);
+  EXPECT_EQ(hands[0].hand_log_odds, 4);
 }
 
 TEST_F(DetectionStageTest, BetweenTwoDetectionsNothingIsAHand) {

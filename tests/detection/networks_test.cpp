@@ -90,7 +90,7 @@ TEST_F(NetworksTest, AnOperatorThatIsNotSupportedIsSaid) {
 
 TEST_F(NetworksTest, AnotherInterfaceIsSaid) {
   std::string manifest = bytes_of(folder_ / "nets.json");
-  const std::string known = "\"interface\": \"1\"";
+  const std::string known = "\"interface\": \"2\"";
   manifest.replace(manifest.find(known), known.size(), "\"interface\": \"7\"");
   write(folder_ / "nets.json", manifest);
   EXPECT_THAT(error(), testing::HasSubstr("interface 7"));

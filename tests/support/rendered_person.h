@@ -82,27 +82,21 @@ inline std::array<Eigen::Vector3d, kLandmarkCount> landmarks(const HandProfile& 
   return points;
 }
 
-/// A hand as the networks detect it: its joints with a standard deviation of `deviation` [m], all labels hand with the
-/// log odds `labels`.
+/// A hand as the networks detect it: its joints with a standard deviation of `deviation` [m], all labels hand.
 inline DetectedHand detected_hand(const HandProfile& profile, const HandPose& pose, double right_log_odds,
-                                  double deviation = 0.005, double palm = 0.9, float labels = 6) {
+                                  double deviation = 0.005, double hand_log_odds = 6) {
   DetectedHand hand;
   const auto joints = landmarks(profile, pose);
   for (int k = 0; k < kLandmarkCount; ++k)
     hand.joints[k] = {joints[k], deviation * deviation * Eigen::Matrix3d::Identity()};
-  hand.palm = palm;
+  hand.centre = 0.5 * (joints[kWristLandmark] + joints[kMiddleKnuckleLandmark]);
+  hand.palm = 0.9;
+  hand.hand_log_odds = hand_log_odds;
   hand.right_log_odds = right_log_odds;
   hand.side = profile.handedness;
   hand.labels.label.reset(1, 1, SurfaceLabel::hand);
-  hand.labels.hand_log_odds.reset(1, 1, labels);
+  hand.labels.hand_log_odds.reset(1, 1, 6.f);
   return hand;
-}
-
-/// Gives a detected hand the joints of a foot: toes without length.
-inline void make_foot(DetectedHand& hand) {
-  for (int finger = 0; finger < kFingerCount; ++finger)
-    for (int k = 1; k < 4; ++k)
-      hand.joints[landmark_of(finger, k)].position = hand.joints[landmark_of(finger, 0)].position;
 }
 
 }  // namespace barehand::test

@@ -8,72 +8,23 @@
 namespace barehand {
 namespace {
 
-constexpr double kLots = 0.9;  // a difference of log odds that is significant
+constexpr double kLots = 0.4;  // a difference of log odds that is significant
 
-/// Output of the networks for an ordinary hand.
-constexpr HandCues kHand{.networks = {.palm = 0.8, .side = 4, .labels = 5}, .misfit = 0.3};
 const Eigen::Vector3d kHere(0, 0, 0.6);
 
-TEST(HandCues, EachOneTellsAHandFromWhatIsTakenForOne) {
-  const double hand = log_odds_of_hand(kHand);
-  HandCues unlikely = kHand, sideless = kHand, blurred = kHand, misshapen = kHand;
-  unlikely.networks.palm = 0.3;
-  sideless.networks.side = 0.1;
-  blurred.networks.labels = 1.5;
-  misshapen.misfit = 1.5;
-  for (const HandCues& cues : {unlikely, sideless, blurred, misshapen}) EXPECT_LT(log_odds_of_hand(cues), hand - kLots);
-}
-
-TEST(HandCues, OfAFollowedHandOrNoJointsAreNotInfinite) {
-  HandCues followed = kHand, nothing;
-  followed.networks.palm = 1;
-  EXPECT_LT(log_odds_of_hand(followed), 15);
-  EXPECT_GT(log_odds_of_hand(nothing), -15);
-}
-
 /// A hand whose joints are detected at their true positions.
-class CuesOfDetection : public testing::TestWithParam<Handedness> {
+class EvidenceOfPose : public testing::TestWithParam<Handedness> {
  protected:
   const std::shared_ptr<const HandProfile> profile_ = test::adult_hand(GetParam());
   const HandPose pose_ = test::facing_pose(*profile_, 0.5, 0.3);
   DetectedHand detected() const {
-    DetectedHand hand = test::detected_hand(*profile_, pose_, GetParam() == Handedness::right ? 3 : -3, 0.01, 0);
-    hand.labels.label.reset(2, 1, SurfaceLabel::hand);
-    hand.labels.hand_log_odds.reset(2, 1, 4);
-    hand.labels.label.at(1, 0) = SurfaceLabel::arm;
-    hand.labels.hand_log_odds.at(1, 0) = -9;
-    return hand;
+    return test::detected_hand(*profile_, pose_, GetParam() == Handedness::right ? 3 : -3, 0.01);
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Sides, CuesOfDetection, testing::Values(Handedness::right, Handedness::left));
+INSTANTIATE_TEST_SUITE_P(Sides, EvidenceOfPose, testing::Values(Handedness::right, Handedness::left));
 
-TEST_P(CuesOfDetection, AreTheSameForProfilesOfBothSides) {
-  for (const auto& profile : {test::adult_hand(), test::adult_hand(Handedness::left)}) {
-    const HandCues cues = hand_cues(detected(), *profile);
-    EXPECT_EQ(cues.networks.side, 3);
-    EXPECT_FLOAT_EQ(cues.networks.labels, 4) << "of what is called hand";
-    EXPECT_LT(cues.misfit, 0.1);
-  }
-}
-
-TEST_P(CuesOfDetection, AreTheSameForBothHandsWhereTheSideIsOpen) {
-  DetectedHand open = detected();
-  open.other_joints = open.joints;
-  for (DetectedJoint& joint : *open.other_joints) joint.position.y() *= 1.5;  // do not fit a hand of the other side
-  const double right = hand_cues(open, *test::adult_hand()).misfit,
-               left = hand_cues(open, *test::adult_hand(Handedness::left)).misfit;
-  EXPECT_EQ(right, left);
-  EXPECT_LT(right, 0.1);
-}
-
-TEST_P(CuesOfDetection, JointsWithoutAHandsProportionsFitNone) {
-  DetectedHand foot = detected();
-  test::make_foot(foot);
-  EXPECT_GT(hand_cues(foot, *profile_).misfit, 0.5);
-}
-
-TEST_P(CuesOfDetection, APoseCountsThatExplainsTheDataAtTheJoints) {
+TEST_P(EvidenceOfPose, APoseCountsThatExplainsTheDataAtTheJoints) {
   RefinedPose refined;
   refined.pose = pose_;
   refined.score = 0.002;
@@ -92,7 +43,7 @@ TEST_P(CuesOfDetection, APoseCountsThatExplainsTheDataAtTheJoints) {
       << "joints that are not seen may be anywhere";
 }
 
-TEST_P(CuesOfDetection, WhereOnlySkinIsSeenTheJointsCountAndNotTheScore) {
+TEST_P(EvidenceOfPose, WhereOnlySkinIsSeenTheJointsCountAndNotTheScore) {
   DetectedHand seen = detected();
   seen.skin_only = true;
   RefinedPose refined;
@@ -104,7 +55,7 @@ TEST_P(CuesOfDetection, WhereOnlySkinIsSeenTheJointsCountAndNotTheScore) {
   bad.score = 0.006;
   for (SE3& T : elsewhere.pose) T.t.x() += 0.04;
   EXPECT_EQ(log_odds_of_pose(bad, *profile_, seen), good);
-  EXPECT_LT(log_odds_of_pose(elsewhere, *profile_, seen), good - 3);
+  EXPECT_LT(log_odds_of_pose(elsewhere, *profile_, seen), good - 1.5);
 }
 
 TEST(HandEvidence, OneFrameCountsAsItIs) {

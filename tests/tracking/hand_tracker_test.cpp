@@ -219,9 +219,7 @@ class GivenStart : public testing::Test {
   /// The observation of something that looks like a hand in this pose, but that the networks do not take for one.
   HandObservation foot_like(const HandPose& pose) const {
     HandObservation seen = *test::observe_skin(make_blended_skin(*profile_, 0.004), pose);
-    DetectedHand foot = test::detected_hand(*profile_, pose, 0.1, 0.005, 0.2, 1);
-    test::make_foot(foot);
-    seen.detected = std::make_shared<const DetectedHand>(foot);
+    seen.detected = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, pose, 0.1, 0.005, -5));
     return seen;
   }
 
@@ -248,7 +246,7 @@ TEST_F(GivenStart, WhatIsHardlyAHandIsNotTakenForALostOne) {
   const HandPose elsewhere = test::turned(pose_, {0, 0, 170 * kDegree}, {0, 0, 0.5});
   HandObservation seen = foot_like(elsewhere);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(next(seen)->status, TrackStatus::lost);
-  seen.detected = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, elsewhere, 5, 0.005, 0.7, 5));
+  seen.detected = std::make_shared<const DetectedHand>(test::detected_hand(*profile_, elsewhere, 5));
   next(seen);
   EXPECT_EQ(next(seen)->status, TrackStatus::tracking);
 }

@@ -27,15 +27,23 @@ class ProfileVerification : public ::testing::Test {
   bool refused(double score) { return verifier_.is_other_side(*seen(), Effort::quick, 1, score); }
   /// Number of frames until the other side is recognised, if the profile's estimates have this score and status. None
   /// if it is not recognised.
-  std::optional<int> verification(double score, TrackStatus status = TrackStatus::tracking) {
+  std::optional<int> verification(double score, TrackStatus status = TrackStatus::tracking,
+                                  std::optional<double> right_log_odds = {}) {
     HandEstimate own;
     own.status = status;
     own.score = score;
     for (int frame = 1; verifier_.verifying(); ++frame) {
-      verifier_.track_mirrored(*seen());
+      HandObservation observation = *seen();
+      if (right_log_odds) observation.detected = detected(*right_log_odds);
+      verifier_.track_mirrored(observation);
       if (verifier_.turns_out_other_side(own)) return frame;
     }
     return std::nullopt;
+  }
+
+  std::shared_ptr<const DetectedHand> detected(double right_log_odds) const {
+    return std::make_shared<const DetectedHand>(
+        test::detected_hand(*left_, test::facing_pose(*left_, 0.5, 0.5), right_log_odds));
   }
 
   const std::shared_ptr<const HandProfile> right_ = test::adult_hand(), left_ = test::adult_hand(Handedness::left);
@@ -70,6 +78,13 @@ TEST_F(ProfileVerification, AHandOfItsOwnSideIsLeftAlone) {
   EXPECT_EQ(said_.str(), "");
 }
 
+TEST_F(ProfileVerification, OfAHandWhoseSideTheNetworksTellInTheNextFramesFindsNoOther) {
+  ASSERT_FALSE(refused(kGood));
+  EXPECT_FALSE(verification(kBad, TrackStatus::tracking, 5));
+  ASSERT_FALSE(refused(kGood));
+  EXPECT_TRUE(verification(kBad, TrackStatus::tracking, 1)) << "they do not tell it";
+}
+
 TEST_F(ProfileVerification, EndsWithAHandThatIsLost) {
   ASSERT_FALSE(refused(kGood));
   EXPECT_FALSE(verification(kBad, TrackStatus::lost));
@@ -87,8 +102,7 @@ TEST_F(ProfileVerification, GoesOnAfterAFrameWithoutTheHand) {
 TEST_F(ProfileVerification, WhereTheNetworksAreSureOfTheSideTheStartWaitsForNoSearch) {
   const auto detected_with = [&](double right_log_odds) {
     auto observation = test::stamped(*left_hand_, utime_ += 33'000);
-    observation->detected = std::make_shared<const DetectedHand>(
-        test::detected_hand(*left_, test::facing_pose(*left_, 0.5, 0.5), right_log_odds));
+    observation->detected = detected(right_log_odds);
     EXPECT_FALSE(verifier_.is_detected_as_other_side(*observation));
     return verifier_.is_other_side(*observation, Effort::quick, 1, kBad);
   };

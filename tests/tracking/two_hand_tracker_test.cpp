@@ -251,13 +251,12 @@ TEST_P(ProfileOfAnotherSize, IsTrackedWithAndSaid) {
 /// A hand whose joints are detected.
 class StartOfDetectedHand : public TwoHandTrackerTest {
  protected:
-  /// An observed hand with a detection. `palm` is the probability in the heat map, `odds` the log odds of the labels;
-  /// by default, both clearly indicate a hand.
-  static HandObservationPtr detected(const HandProfile& profile, double flexion, double palm = 0.9, float odds = 6) {
+  /// An observed hand with a detection that is one with these log odds.
+  static HandObservationPtr detected(const HandProfile& profile, double flexion, double hand_log_odds = 6) {
     const HandPose pose = test::facing_pose(profile, 0.5, flexion);
     const auto observation = test::observe_skin(make_blended_skin(profile, 0.004), pose);
     observation->detected =
-        std::make_shared<const DetectedHand>(test::detected_hand(profile, pose, 3, 0.005, palm, odds));
+        std::make_shared<const DetectedHand>(test::detected_hand(profile, pose, 3, 0.005, hand_log_odds));
     return observation;
   }
   static TrackerParams params() {
@@ -334,7 +333,7 @@ TEST_F(StartOfDetectedHand, NeedsNoGoodScoreOfTwoSidesWhereTheDetectionConfirmsO
 TEST_F(StartOfDetectedHand, IsReadAsAHandOfEitherSideWhereTheNetworksCannotTell) {
   // The networks read a right hand rather as a left one, whose joints are those of the mirrored hand.
   const auto first_frame = [&](bool either) {
-    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.6, 0.6, 2));
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.6, 2));
     auto joints = std::make_shared<DetectedHand>(*hand->detected);
     if (either) joints->other_joints = joints->joints;
     joints->right_log_odds = -0.5;
@@ -381,13 +380,12 @@ TEST_F(StartOfDetectedHand, IsOfNoSideThatTheNetworksExcludeThoughItsPoseExplain
 }
 
 /// A detection that is hardly more probable to be a hand than anything else. It is `aside` [m] away from data that the
-/// model explains well. `labels`: mean log odds of the cells labelled as hand, negative if hand is the likeliest of
-/// four labels, yet less probable than the others together.
+/// model explains well.
 class AmbiguousDetection : public StartOfDetectedHand {
  protected:
   /// The number of the first of 40 frames in which a hand is tracked; 0 if there is none.
-  int first_tracked(double aside, float labels = 1) {
-    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, 0.7, labels));
+  int first_tracked(double aside, double hand_log_odds = 1) {
+    auto hand = std::make_shared<HandObservation>(*detected(*right_, 0.15, hand_log_odds));
     auto joints = std::make_shared<DetectedHand>(*hand->detected);
     joints->right_log_odds = 0.3;
     for (DetectedJoint& joint : joints->joints) joint.position.x() += aside;
@@ -409,7 +407,7 @@ TEST_F(AmbiguousDetection, IsAHandAfterSomeFramesWhereOneDoesNotDecide) {
 
 TEST_F(AmbiguousDetection, IsNoneWhereThePoseThatExplainsItIsAnother) { EXPECT_EQ(first_tracked(0.045), 0); }
 
-TEST_F(AmbiguousDetection, IsNoneWhereTheNetworksContradictEachOther) { EXPECT_EQ(first_tracked(0, -2), 0); }
+TEST_F(AmbiguousDetection, IsNoneWhereTheNetworksSeeSomethingElse) { EXPECT_EQ(first_tracked(0, -2), 0); }
 
 }  // namespace
 }  // namespace barehand

@@ -3,6 +3,7 @@
 import itertools
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import surroundings  # first: skips without PyTorch
@@ -12,9 +13,9 @@ from batches import Supply, batches
 from evaluate import evaluate
 from examples import MAP_OFFSET, MAP_STEP, crop_input, drawn, full_input, generator_for, make_examples
 from export import export
-from losses import LOSSES, joint_errors_mm
+from losses import LOSSES, hand_loss, joint_errors_mm
 from network import make_network
-from weights import read_weights
+from weights import read_folded, read_weights, set_folded
 
 MESH = surroundings.HANDS / "right.glb"
 
@@ -57,16 +58,33 @@ class Figures(unittest.TestCase):
         windows, maps = self.windows, perfect_maps(self.windows)
         labels = 9 * torch.nn.functional.one_hot(windows.label[:, ::2, ::2], 4).permute(0, 3, 1, 2).float()
         side = torch.where(windows.right, 9.0, -9.0)[:, None]
-        right = LOSSES["crop"]((maps, labels, side), windows)
-        for wrong in ((maps.roll(1, 3), labels, side), (maps, labels.roll(1, 1), side), (maps, labels, -side)):
+        hand = torch.where(windows.seen[:, :1], 9.0, -9.0)
+        right = LOSSES["crop"]((maps, labels, side, hand), windows)
+        for wrong in ((maps.roll(1, 3), labels, side, hand), (maps, labels.roll(1, 1), side, hand),
+                      (maps, labels, -side, hand), (maps, labels, side, -hand)):
             self.assertGreater(LOSSES["crop"](wrong, windows), right + 0.1)
 
     def test_a_decided_side_costs_more_where_there_is_no_hand(self):
         windows = make_examples(generator_for(3, "cpu", None, 500), "crop", 24)
         windows.seen = torch.zeros_like(windows.seen)
         maps, labels = perfect_maps(windows), torch.zeros(24, 4, 48, 48)
-        undecided, *decided = (LOSSES["crop"]((maps, labels, torch.full((24, 1), side)), windows) for side in (0.0, 4.0, -4.0))
+        hand = torch.zeros(24, 1)
+        undecided, *decided = (LOSSES["crop"]((maps, labels, torch.full((24, 1), side), hand), windows)
+                               for side in (0.0, 4.0, -4.0))
         self.assertLess(undecided + 0.1, min(decided))
+
+    def test_hands_that_are_hardly_seen_are_no_examples_of_hands_or_other_things(self):
+        windows = make_examples(generator_for(3, "cpu", None, 500), "crop", 24)
+        windows.seen = torch.zeros_like(windows.seen)
+        windows.scenes.pixels = torch.full_like(windows.scenes.pixels, 20)
+        self.assertEqual(hand_loss((None, None, None, torch.full((24, 1), 9.0)), windows), 0)
+        windows.scenes.pixels.zero_()
+        self.assertGreater(hand_loss((None, None, None, torch.full((24, 1), 9.0)), windows), 8)
+
+    def test_as_many_windows_show_hands_as_are_asked_for(self):
+        for hands in (0.0, 1.0):
+            windows = make_examples(generator_for(3, "cpu", None, 500, hands=hands), "crop", 24)
+            self.assertEqual((windows.scenes.pixels[:, 0] > 0).any().item(), hands > 0)
 
     def test_windows_show_right_hands_mostly(self):
         share = self.windows.right.float().mean()
@@ -119,6 +137,17 @@ class Networks(unittest.TestCase):
                 for ours, theirs in zip(same.train(mode)(images), wanted):
                     self.assertLess((ours - theirs).abs().max(), tolerance * (1 + theirs.abs().max()))
 
+    def test_one_that_does_not_tell_hands_yet_is_read(self):
+        older, network = make_network("crop"), make_network("crop")
+        older.hand = None
+        older.train()(torch.rand(8, 2, 96, 96))  # sets the means and variances of the normalisations
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict("export.OUTPUTS", crop=["j", "seg", "side"]):
+            export(older, "crop", Path(folder))
+            set_folded(network, read_folded(network, Path(folder) / "crop.onnx"))
+        image = torch.rand(1, 2, 96, 96)
+        for ours, theirs in zip(network.eval()(image), older.eval()(image)):
+            self.assertLess((ours - theirs).abs().max(), 1e-4)
+
     def test_their_mean_has_the_mean_of_each_weight(self):
         images = make_examples(generator_for(6, "cpu", None, 500), "crop", 24).image
         with tempfile.TemporaryDirectory() as folder:
@@ -139,10 +168,11 @@ class Networks(unittest.TestCase):
 
     def test_their_outputs_have_the_shapes_of_the_interface(self):
         for name, size, joints in (("full", (120, 160), 1), ("crop", (96, 96), 21)):
-            maps, labels, side = make_network(name).eval()(torch.zeros(1, 2, *size))
+            maps, labels, side, *hand = make_network(name).eval()(torch.zeros(1, 2, *size))
             self.assertEqual(maps.shape, (1, 2 * joints, size[0] // 4, size[1] // 4))
             self.assertEqual(labels.shape, (1, 4, size[0] // 2, size[1] // 2))
             self.assertEqual(side.shape, (1, 1))
+            self.assertEqual([odds.shape for odds in hand], [(1, 1)] if name == "crop" else [])
 
 
 if __name__ == "__main__":

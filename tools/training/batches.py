@@ -24,6 +24,7 @@ class Supply:
 # less time than it takes to make it.
 SUPPLIES = {"cuda": {"full": Supply(160, 960, 1, 3), "crop": Supply(256, 1536, 1, 3)},
             "cpu": {"full": Supply(32, 24, 125, 2, beside=True), "crop": Supply(48, 24, 125, 2, beside=True)}}
+HAND = Supply(48, 24, 500, 4, beside=True)  # for whether there is a hand, on a processor
 SMOKE = Supply(8, 8, 1, 1)
 
 

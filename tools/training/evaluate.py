@@ -22,6 +22,7 @@ from scenes.sensors import KINDS
 
 UNSEEN_SEED = 1_000_004  # seed whose people and scenes are in no batch of the training
 _LEAST_PALM = 0.2  # the program ignores palms with a smaller value in the map (its default configuration)
+_HAND_KEYS = ("log odds of a hand", "shows a hand", "shows none")  # kept for each window
 _APART = 60.0  # a peak farther than this from every palm is a false one [mm]
 
 
@@ -36,7 +37,14 @@ def evaluate(network: Callable[[Tensor], tuple], name: str, generator: Generator
             output = network(truth.image)
         parts.append({**(_palms if name == "full" else _joints)(output, truth), **_labels(output, truth)})
     together = {key: torch.cat([part[key] for part in parts]).float() for key in parts[0]}
-    return {key: _figure(key, values) for key, values in together.items()}
+    told = _told(*(together.pop(key) for key in _HAND_KEYS)) if name == "crop" else {}
+    return {key: _figure(key, values) for key, values in together.items()} | told
+
+
+def _told(odds: Tensor, hand: Tensor, none: Tensor) -> dict[str, float]:
+    """Which hands have higher log odds than nearly all windows without one."""
+    return {f"hands told with {100 * false:g} % of other windows":
+            round(100 * (odds[hand > 0] > odds[none > 0].quantile(1 - false)).float().mean().item(), 2) for false in (0.01, 0.05)}
 
 
 def _figure(key: str, values: torch.Tensor) -> float:
@@ -93,6 +101,7 @@ def _joints(output: tuple, truth: Examples) -> dict[str, torch.Tensor]:
     for index, kind in enumerate(KINDS):
         figures[f"joints, {kind}, mm"] = errors[sensor == index].flatten()
     figures["sides right"] = side[truth.seen[:, 0]]
+    figures |= dict(zip(_HAND_KEYS, (output[3][:, 0], truth.seen[:, 0], truth.scenes.pixels[:, 0] == 0)))
     figures["share of a window without a hand that is labelled as hand"] = hand[truth.scenes.pixels[:, 0] == 0]
     return figures
 

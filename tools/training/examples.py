@@ -93,6 +93,6 @@ def _each(values: Sequence[Any], function: Callable[[Sequence[Tensor]], Tensor])
     return values[0]
 
 
-def generator_for(seed: int, device: str, mesh, points: int) -> Generator:
+def generator_for(seed: int, device: str, mesh, points: int, **options: Any) -> Generator:
     """A generator of scenes with its own stream of random numbers. `points`: number of skin points per hand."""
-    return Generator(Chance(seed, device), mesh, points)
+    return Generator(Chance(seed, device), mesh, points, **options)

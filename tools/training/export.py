@@ -12,8 +12,8 @@ from torch import Tensor
 from network import HandNetwork
 from scenes.views import CROP_SIZE, FULL_SIZE
 
-INTERFACE = "1"  # version of inputs and outputs that stages/detection/weights.cpp expects
-OUTPUTS = ["j", "seg", "side"]
+INTERFACE = "2"  # version of inputs and outputs that stages/detection/weights.cpp expects
+OUTPUTS = {"full": ["j", "seg", "side"], "crop": ["j", "seg", "side", "hand"]}
 SIZES = {"full": FULL_SIZE, "crop": CROP_SIZE}
 
 
@@ -27,7 +27,7 @@ def export(network: HandNetwork, name: str, folder: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         torch.onnx.export(network, torch.zeros(1, 2, *SIZES[name]), str(unfinished), opset_version=11, input_names=["x"],
-                          output_names=OUTPUTS, **options)
+                          output_names=OUTPUTS[name], **options)
     unfinished.rename(path)
 
 
@@ -50,7 +50,7 @@ def opencv_network(name: str, folder: Path) -> Callable[[Tensor], tuple[Tensor, 
         single = []
         for image in images.cpu():
             reader.setInput(image[None].numpy())
-            single.append([torch.from_numpy(output.copy()) for output in reader.forward(OUTPUTS)])
+            single.append([torch.from_numpy(output.copy()) for output in reader.forward(OUTPUTS[name])])
         return tuple(torch.cat(parts) for parts in zip(*single))
 
     return run

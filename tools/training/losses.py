@@ -32,7 +32,7 @@ def _label_loss(logits: Tensor, label: Tensor) -> Tensor:
     return functional.cross_entropy(logits, label[:, ::2, ::2], weight=weights)
 
 
-def full_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
+def full_loss(output: tuple[Tensor, ...], truth: Examples) -> Tensor:
     """Loss of the full network: its map should show a bell curve at each palm and 0 otherwise; plus the label loss."""
     maps, labels, _ = (part.float() for part in output)
     width = (_PALM_RADIUS / truth.mm / MAP_STEP).clamp(0.8, 4)
@@ -42,10 +42,17 @@ def full_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     return 5 * (miss * (1 + 20 * bump)).mean() + _label_loss(labels, truth.label)
 
 
-def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
+def hand_loss(output: tuple[Tensor, ...], truth: Examples) -> Tensor:
+    """Loss of the log odds of a hand; windows that show next to nothing of their hand do not count."""
+    seen, absent = truth.seen[:, 0], truth.scenes.pixels[:, 0] == 0
+    misses = functional.binary_cross_entropy_with_logits(output[3][:, 0].float(), seen.float(), reduction="none")
+    return (misses * (seen | absent)).sum() / (seen | absent).sum().clamp_min(1)
+
+
+def crop_loss(output: tuple[Tensor, ...], truth: Examples) -> Tensor:
     """Loss of the crop network: joints of right hands in the image and in depth, maps with narrow peaks, labels,
-    side."""
-    maps, labels, side = (part.float() for part in output)
+    side, whether it is a hand."""
+    maps, labels, side, _ = (part.float() for part in output)
     logits, depths = maps.chunk(2, 1)
     cells, share = soft_argmax(logits)
     target = (truth.uv[:, 0] - MAP_OFFSET) / MAP_STEP
@@ -67,7 +74,7 @@ def crop_loss(output: tuple[Tensor, Tensor, Tensor], truth: Examples) -> Tensor:
     target = torch.where(seen, truth.right.float(), torch.full_like(rarer, 0.5))
     sides = functional.binary_cross_entropy_with_logits(side[:, 0], target, reduction="none")
     sides = (sides * rarer).sum() / rarer.sum().clamp_min(1)
-    return across + 4 * ahead + 0.1 * peaked + _label_loss(labels, truth.label) + 0.3 * sides
+    return across + 4 * ahead + 0.1 * peaked + _label_loss(labels, truth.label) + 0.3 * sides + 0.3 * hand_loss(output, truth)
 
 
 LOSSES = {"full": full_loss, "crop": crop_loss}

@@ -12,7 +12,8 @@ FoldedWeights = list[tuple[Tensor, Tensor]]
 
 
 def read_folded(network: HandNetwork, path: Path) -> FoldedWeights:
-    """The weights of the file, which must hold a network of the same shape as `network`."""
+    """The weights of the file, which must hold a network of the same shape as `network`. Its last layers may be missing:
+    version 1 of the interface had none that tells a hand."""
     import cv2
 
     if not path.is_file():
@@ -20,7 +21,8 @@ def read_folded(network: HandNetwork, path: Path) -> FoldedWeights:
     reader = cv2.dnn.readNetFromONNX(str(path))
     layers = [reader.getLayer(reader.getLayerId(name)).blobs for name in reader.getLayerNames()]
     stored = [tuple(torch.from_numpy(blob.copy()) for blob in blobs) for blobs in layers if len(blobs)]
-    if [blobs[0].shape for blobs in stored] != [module.weight.shape for module, _ in _with_normalisations(network)]:
+    wanted = [module.weight.shape for module, _ in _with_normalisations(network)]
+    if [blobs[0].shape for blobs in stored] not in (wanted, wanted[:-2]):
         raise SystemExit(f"{path} holds another network (give a folder that train.py or configs/nets filled)")
     return stored
 

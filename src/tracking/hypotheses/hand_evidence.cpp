@@ -1,4 +1,4 @@
-// Decides from several cues whether a detection is a hand.
+// Decides whether a detection is a hand.
 #include "tracking/hypotheses/hand_evidence.h"
 
 #include <algorithm>
@@ -9,13 +9,11 @@
 namespace barehand {
 namespace {
 
-// Weights of the logistic model that tells hands from other objects, one for each cue besides the networks' outputs.
-constexpr double kBias = -5.6, kOfMisfit = -1.6, kOfScore = -2.7, kOfDistance = -2.0;
+// Weights of the pose's global score and of its distance from the detected joints.
+constexpr double kOfScore = -1.35, kOfDistance = -1.0;
 // Added with the pose, instead of the score's part, where only the colour of skin was looked at: whatever has that
 // colour is explained well by some pose of a hand, so that only the distance tells a hand.
-constexpr double kOfPoseOnSkin = -0.5;
-// Lower limit of the misfit, because values below it carry no further information.
-constexpr double kLeastMisfit = 0.05;
+constexpr double kOfPoseOnSkin = -0.25;
 // Lower limits of the global score (kBest) and of the distance from the detected joints (kLeast), and the values of
 // both for which they change the log odds neither way (kReference) [m].
 constexpr double kBestScore = 0.0008, kReferenceScore = 0.0025, kLeastDistance = 0.002, kReferenceDistance = 0.015;
@@ -29,25 +27,6 @@ constexpr double kApart = 0.1;         // a detection farther than this from all
 constexpr std::uint32_t kFaded = 100;  // number of frames after which a place is forgotten
 
 }  // namespace
-
-HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile) {
-  HandCues cues;
-  cues.networks = network_cues(detected);
-
-  // Fit a hand of any size to the joints. The joints that the network reports on a foot do not have a hand's
-  // proportions. Where the side is open, the better one counts, so that both trackers see the same evidence.
-  const auto misfit = [&](const HandProfile& of) {
-    const auto fit = fit_size_to_hand(of, detected, kScaleDeviation);
-    return fit ? fit->cost : INFINITY;
-  };
-  cues.misfit = misfit(profile);
-  if (detected.other_joints) cues.misfit = std::min(cues.misfit, misfit(mirrored(profile)));
-  return cues;
-}
-
-double log_odds_of_hand(const HandCues& cues) {
-  return kBias + network_log_odds(cues.networks) + kOfMisfit * std::log(std::max(cues.misfit, kLeastMisfit));
-}
 
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected) {
   double matched = 0;

@@ -3,28 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "stages/detection/network_cues.h"
+#include "observe/detection.h"
 #include "stages/refinement/refinement.h"
 
 namespace barehand {
 
-// Decides whether what the networks detected is a hand at all, by evidence from the networks, from the refined pose and
-// from successive frames.
+// Decides whether what the networks detected is a hand at all, by evidence from the refined pose and from successive
+// frames besides their own.
 
-/// Cues on whether a detected hand really is a hand, before a pose is tried.
-struct HandCues {
-  NetworkCues networks;
-  double misfit = 0;  ///< KinematicFit::cost of the joints, with a hand of any size
-};
-/// The cues of a detected hand. `profile` may be of either side: it is mirrored if necessary.
-HandCues hand_cues(const DetectedHand& detected, const HandProfile& profile);
-
-/// Log odds that a detection is a hand and not something else that the networks confuse with one, with equal prior
-/// probabilities: a logistic model, fitted to scenes with and without hands (docs/method.md).
-double log_odds_of_hand(const HandCues& cues);
-/// Additional log odds from the pose that was refined from the detected joints. On a foot, that pose has a bad global
-/// score or is far from the detected joints. The distance counts less if little of the hand is visible, since detected
-/// joints that are hidden are uncertain.
+/// Log odds from the pose that was refined from the detected joints, in addition to DetectedHand::hand_log_odds. On a
+/// foot, that pose has a bad global score or is far from the detected joints. The distance counts less if little of the
+/// hand is visible, since detected joints that are hidden are uncertain.
 double log_odds_of_pose(const RefinedPose& refined, const HandProfile& profile, const DetectedHand& detected);
 
 /// Accumulates over frames, separately for each place, the log odds that the detection there is a hand. Successive

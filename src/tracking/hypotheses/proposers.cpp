@@ -20,8 +20,16 @@ constexpr std::uint64_t kAttemptSeed = 1000003;  // difference between the rando
 // Thresholds on the log odds that a detection is a hand (HandEvidence).
 constexpr double kPossibleHand = 0,  // below, the detection is ignored
     kProvenHand = 3,                 // from here on, with the evidence of the pose and earlier frames, it is a hand
-    kCertainHand = 7;                // from here on, the networks alone suffice
-constexpr double kAwaited = 2;       // is added to the log odds while a lost hand is awaited
+    kCertainHand = 6;                // from here on, the networks alone suffice
+constexpr double kAwaited = 1;       // is added to the log odds while a lost hand is awaited
+constexpr double kSamePalm = 0.06;   // a pose whose palm is farther from the detected one is not that hand's [m]
+
+/// Whether the palm of a pose is where the networks see it. Forearms are often explained better by some pose than fists
+/// are.
+bool is_there(const DetectedHand& detected, const HandPose& pose) {
+  const Eigen::Vector3d palm = 0.5 * (pose[kPalm].t + pose[segment_of(2, 0)].t);
+  return (palm - detected.centre).norm() < kSamePalm;
+}
 
 }  // namespace
 
@@ -34,8 +42,7 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
   // What is detected may be something other than a hand.
   const DetectedHand* const unproven = observation.detected.get();
   double log_odds = kCertainHand;
-  if (unproven)
-    log_odds = log_odds_of_hand(hand_cues(*unproven, *hand.profile)) + (track.was_followed() ? kAwaited : 0);
+  if (unproven) log_odds = unproven->hand_log_odds + (track.was_followed() ? kAwaited : 0);
   if (log_odds < kPossibleHand) {
     track.evidence.forget(unproven->centre);
     return std::nullopt;
@@ -43,6 +50,7 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
 
   // Unless the networks are certain, the refined pose and earlier frames must confirm that it is a hand.
   std::optional<Hypothesis> best = detected(observation, hand);
+  if (best && !is_there(*unproven, best->refined.pose)) best.reset();
   if (log_odds < kCertainHand) {
     const double of_pose = best ? log_odds_of_pose(best->refined, *hand.profile, *unproven) : 0;
     if (track.evidence.add(frame, unproven->centre, log_odds + of_pose) < kProvenHand) return std::nullopt;
@@ -56,7 +64,7 @@ std::optional<Hypothesis> Proposers::search_frame(const HandObservation& observa
   RestartConsensus poses(*hand.profile, params.choice.sufficient_score, params.loss.recovered_score);
   for (int attempt = 0; attempt < attempts && !poses.converged(); ++attempt) {
     auto found = search_once(observation, hand, track, effort, attempt, frame);
-    if (!found) continue;
+    if (!found || (unproven && !is_there(*unproven, found->refined.pose))) continue;
     const bool better = poses.add(found->refined.pose, found->score());
     if (better && (!best || found->score() < best->score())) best = std::move(found);
   }

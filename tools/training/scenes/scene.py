@@ -56,10 +56,11 @@ class Scenes:
 
 
 class Generator:
-    """Makes scenes. `mesh`: the simulator's right hand (right.glb); None: only the parametric hand is used."""
+    """Makes scenes. `mesh`: the simulator's right hand (right.glb); None: only the parametric hand is used. `hands`:
+    share of the windows that show a hand."""
 
-    def __init__(self, chance: Chance, mesh: Path | None, points: int = 12000) -> None:
-        self.chance = chance
+    def __init__(self, chance: Chance, mesh: Path | None, points: int = 12000, hands: float = 0.86) -> None:
+        self.chance, self.hands = chance, hands
         self.rigs = [ParametricRig(points, chance.device)]
         if mesh is not None:
             self.rigs.append(MeshRig(mesh, points, chance.device))
@@ -80,14 +81,14 @@ class Generator:
         return self._make(view, place, place, chance.flag(0.78, count), True)
 
     def windows(self, count: int) -> Scenes:
-        """Windows around palms, up to 4.5 cm off centre along each axis; 14 % show no hand, and most of these
-        something that is like one."""
+        """Windows around palms, up to 4.5 cm off centre along each axis; most of those without a hand show something that
+        is like one, or an object."""
         chance = self.chance
         z = chance.log_uniform(0.16, 1.6, count)
         place = torch.stack([chance.uniform(-0.5, 0.5, count) * z, chance.uniform(-0.4, 0.4, count) * z, z], 1)
         middle = place + chance.uniform(-0.045, 0.045, count, 3)
         view = crop_view(middle, CROP_ACROSS * chance.uniform(0.9, 1.12, count))
-        return self._make(view, place, middle, chance.flag(0.86, count), False)
+        return self._make(view, place, middle, chance.flag(self.hands, count), False)
 
     def _make(self, view: View, place: Tensor, middle: Tensor, present: Tensor, whole: bool) -> Scenes:
         """`place` [B, 3]: position of hand 0's palm; `middle` [B, 3]: see Scenes; `present` [B]: whether there are
@@ -112,13 +113,13 @@ class Generator:
         other_arm, _ = arms(chance, rays, other.stance, other_joints[:, WRIST], size)
         arm = torch.minimum(arm, only(both, other_arm))
         lookalike = _lookalike_kinds(chance, present)
-        arm = only(present | (lookalike < 0) & chance.flag(0.85, count), arm)
+        arm = only(present | (lookalike < 0) & chance.flag(0.6, count), arm)
         rest = planes(chance, rays, torch.cat([joints, only_joints(both, other_joints, joints)], 1))
         rest = torch.minimum(rest, clutter(chance, rays, place))
         others = lookalikes(chance, rays, place + present[:, None] * beside(chance, place, 0.25), lookalike)
         whose = (chance.flag(0.55, count) & ~stance.egocentric).nonzero()[:, 0]  # bodies take long, and half are not seen
         others[whose] = torch.minimum(others[whose], bodies(chance, rays[whose], shoulder[whose]))
-        shown = grasp & (present | (lookalike < 0) & chance.flag(0.5, count))
+        shown = torch.where(present, grasp, (lookalike < 0) & chance.flag(0.7, count))
         thing = torch.minimum(_held(rays, solids, shown, right, stance, origin), occluders(chance, rays, place))
         # Each layer: depth, label, and the probability that it has the colour of skin.
         layers = [(rest, BACKGROUND, 0.0), (only(present, draw_points(view, skin)), HAND, 1.0),
